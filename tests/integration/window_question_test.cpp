@@ -82,6 +82,19 @@ TEST_P(WindowQuestion, LayersThatAreSwitchedMeanwhileWait) {
   EXPECT_TRUE(scene.mesh().visible());
 }
 
+/// A script that is saved would fail at its first line.
+TEST(OfferedSession, IsNoPartOfTheScriptIfItDoesNotOpen) {
+  User user(inaccurate());
+  user.window().offer(EarlierSession{.folder = "/nowhere", .name = "box", .views = 2});
+  while (user.worker().progress().question.empty() || user.window().seconds_to_next_frame() == 0.0)
+    user.window().draw(1.0 / 60);
+  const std::vector<std::string> before = user.window().state().history.lines;
+  user.type(Key::enter);
+  user.wait();
+  EXPECT_NE(user.session().message, "");
+  EXPECT_EQ(user.window().state().history.lines, before);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, WindowQuestion, testing::Values(std::pair{1280, 800}, std::pair{640, 480}));
 
 }  // namespace

@@ -67,6 +67,7 @@ void Interface::connect(const request::Connect& scanner) {
 void Interface::offer(const EarlierSession& session) {
   parts_->offered = session.folder;
   parts_->worker.post(request::OfferSession{session});
+  parts_->offer_request = parts_->worker.posted();
 }
 void Interface::run_script(std::vector<CommandCall> calls) { parts_->script.add(std::move(calls)); }
 void Interface::record(const std::string& file) {

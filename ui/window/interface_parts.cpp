@@ -183,9 +183,6 @@ void Interface::Parts::do_calls(std::vector<CommandCall> calls) {
 void Interface::Parts::do_for_people(const CommandCall& call) {
   if (asked_call.waiting() && news.progress.question.empty() && call.command == &command::answer) {
     if (const auto wanted = asked_call.answered(call.values().front())) do_call(*wanted);
-  } else if (call.command == &command::answer && news.progress.answers == SessionWorker::offer_answers()) {
-    do_call(call);
-    if (call.values().front() == SessionWorker::offer_answers().front()) recorder.begin_with(offered);
   } else if (!asked_call.asks(call, {*news.snapshot, news.progress, state})) {
     do_call(call);
   }

@@ -65,6 +65,7 @@ struct Interface::Parts {
   News news;
   AskedCall asked_call;
   std::filesystem::path offered;                    ///< a session to go on with
+  std::uint64_t offer_request = 0;                  ///< that asks whether to
   std::uint64_t session = 0;                        ///< whose numbers the selection has
   std::string object;                               ///< that section and slice are of
   std::shared_ptr<const SessionSnapshot> asked_of;  ///< the last question

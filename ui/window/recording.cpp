@@ -3,14 +3,22 @@
 #include <cmath>
 
 #include "ui/commands/demo_commands.hpp"
+#include "ui/commands/file_commands.hpp"
 #include "ui/commands/scan_commands.hpp"
+#include "ui/commands/scanner_commands.hpp"
 #include "ui/window/interface_parts.hpp"
 
 namespace nextview {
 
 /// While views are played, what is asked for is done behind the view that is under way, and is written down then.
+/// Nothing is offered to who plays a script: it opens what was gone on with.
 void Interface::Parts::record(const CommandCall& call, std::uint64_t request, bool playing) {
   if (call.command == &command::play) return;
+  if (call.command == &command::answer && news.progress.answers == SessionWorker::offer_answers()) {
+    if (call.values().front() == SessionWorker::offer_answers().front())
+      recorder.add(command::open(std::filesystem::absolute(offered).string()), offer_request);
+    return;
+  }
   if (playing && request > 0)
     behind_play.emplace_back(request, call);
   else
