@@ -224,6 +224,17 @@ TEST_F(Demos, AFileThatIsOpenedIsPlayed) {
   EXPECT_FALSE(user.window().state().presentation.demo);
 }
 
+TEST_F(Demos, AFileThatIsDroppedTakesOverAndIsOpened) {
+  User user(tiny_scan(), 320, 180, 0.25);
+  user.window().play_demo(demo("caption \"one\"\nwait 100\n").calls);
+  for (int i = 0; i < 5; ++i) user.window().draw(0.1);
+  ASSERT_TRUE(user.window().state().presentation.demo);
+  user.drop("box");
+  user.wait();
+  EXPECT_FALSE(user.window().state().presentation.demo);
+  EXPECT_EQ(user.session().object_name, "box");
+}
+
 TEST_F(Demos, WhatOneBorrowsOfTheUserIsGivenBack) {
   User user(tiny_scan(), 320, 180, 0.25);
   const WindowPreferences own{1.25, true, true, {200, 300, 150}};

@@ -55,21 +55,22 @@ void Interface::Parts::fly(double seconds) {
   }
 }
 
-/// Space pauses, Right skips what is waited for, F12 is the full screen, and whatever else is done takes over. What a
-/// demo shows depends on no pointer. Returns what is left for the window.
+/// Space pauses, Right skips what is waited for, F12 is the full screen, and whatever else is done takes over; a file
+/// that is dropped is opened, too. What a demo shows depends on no pointer. Returns what is left for the window.
 std::vector<InputEvent> Interface::Parts::input_beside_demo(const std::vector<InputEvent>& events) {
   std::vector<InputEvent> left;
   Presentation& p = state.presentation;
   for (const InputEvent& event : events) {
     const auto* key = std::get_if<input::KeyChange>(&event);
     const auto* button = std::get_if<input::Button>(&event);
+    if (p.demo && std::holds_alternative<input::Drop>(event)) take_over();
     if (!p.demo || std::holds_alternative<input::Expose>(event) || (key && (!key->down || leaves_demo_alone(key->key))))
       left.push_back(event);
     else if (key && key->key == Key::space)
       p.paused = !p.paused;
     else if (key && key->key == Key::right)
       p.due += p.hold;
-    else if (key || (button && button->down) || std::holds_alternative<input::Drop>(event))
+    else if (key || (button && button->down))
       take_over();
   }
   return left;
