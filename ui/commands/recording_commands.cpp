@@ -47,13 +47,14 @@ const CommandOf<std::string> command::record{
      .help =
          "Writes what is done from now on as a demo, with its pauses and the camera's motions, until record-stop or "
          "the window's end. What was done before is done at once when it is played.",
-     .why_not = [](const CommandState& t) { return t.window.recording ? "a recording runs already" : ""; },
      .writes = true},
     argument::file("file", "a file that ends in .nextview", argument::fixed({"recorded.nextview"})),
     [](CommandTarget& t, const std::string& file) {
       if (!file.ends_with(".nextview")) throw std::invalid_argument("record: " + file + " must end in .nextview");
-      write_file(file, recorded_demo(t.window.history, {file, t.window.history.now}));
-      t.window.recording = DemoRecording{file, t.window.history.now};
+      // One that runs goes on in this file: its own may be one that cannot be written any more.
+      const DemoRecording recording{file, t.window.recording ? t.window.recording->since : t.window.history.now};
+      write_file(file, recorded_demo(t.window.history, recording));
+      t.window.recording = recording;
       t.worker.log().add(LogEntry::Level::success, "Recording to " + file + " until Demo › Stop recording");
     }};
 
