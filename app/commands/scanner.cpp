@@ -1,6 +1,7 @@
 #include "app/commands/scanner.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -19,10 +20,17 @@ std::string text(const Pose& pose) {
                      forward.x(), forward.y(), forward.z());
 }
 
-/// A robot moves when someone looks.
-bool confirmed(const Pose& from, const Pose& to) {
+/// A robot moves when someone looks. Ctrl+C refuses, which reading a line would not hear of.
+bool confirmed(const Pose& from, const Pose& to, const std::stop_token& stop) {
   fmt::print(stderr, "\nMove the camera by {} to {}? n ends the scan, which --resume goes on with. [y/N] ",
              length_text((to.translation() - from.translation()).norm()), text(to));
+  pollfd terminal{STDIN_FILENO, POLLIN, 0};
+  while (!stop.stop_requested() && ::poll(&terminal, 1, 50) <= 0) {
+  }
+  if (stop.stop_requested()) {
+    fmt::print(stderr, "\n");
+    return false;
+  }
   std::string answer;
   return std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes");
 }
@@ -50,7 +58,8 @@ Scanner::Scanner(const ScannerOptions& options, Configuration& configuration, co
     throw std::invalid_argument(
         configuration.as_given("recorded.folder: --driver scans with a live scanner and goes through no recording"));
   ScannerWishes wishes{options.command};
-  if (options.confirm == "always") wishes.confirm = confirmed;
+  if (options.confirm == "always")
+    wishes.confirm = [stop](const Pose& from, const Pose& to) { return confirmed(from, to, stop); };
   wishes.log = [](const std::string& line) { fmt::print(stderr, "{}\n", printable(line)); };
   connection_ = connect_scanner(configuration, wishes, stop);
   // Before there is a session, which would be in the way of the next try.
