@@ -22,6 +22,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "ui/charts/axis_scale.hpp"
 #include "ui/charts/curve_names.hpp"
 #include "ui/drawing/painter.hpp"
 #include "ui/render_target/render_target.hpp"
@@ -35,27 +36,6 @@ void set_pen(vtkPen& pen, const Colour& colour, double width) {
   pen.SetColor(channel(colour[0]), channel(colour[1]), channel(colour[2]), 255);
   pen.SetWidth(float(width));
 }
-
-/// Large values are shown in thousands or millions, named in the axis title.
-struct Scale {
-  double factor = 1.0;
-  std::string word;
-
-  explicit Scale(double largest) {
-    if (largest >= 1e6)
-      *this = Scale(1e6, "million ");
-    else if (largest >= 1e4)
-      *this = Scale(1e3, "thousand ");
-  }
-  Scale(double by, std::string name) : factor(by), word(std::move(name)) {}
-
-  std::string title(const std::string& label, const std::string& unit) const {
-    const std::string inside = word + unit;
-    return inside.empty()
-               ? label
-               : fmt::format("{} [{}]", label, inside.back() == ' ' ? inside.substr(0, inside.size() - 1) : inside);
-  }
-};
 
 /// The margins are shares of the range that stay free at its ends, so that no marker is cut.
 void set_ticks(vtkAxis& axis, const std::vector<double>& ticks, double low_margin, double high_margin) {
@@ -195,7 +175,7 @@ void Chart::show(const ChartContent& content) {
   }
   if (x.empty() || y.empty()) x.low = 0, x.high = 1, y.low = 0, y.high = 1;
   const double top = content.y_high.value_or(y.high);
-  const Scale scale(std::max(std::abs(y.low), std::abs(top)));
+  const AxisScale scale = AxisScale::of(std::max(std::abs(y.low), std::abs(top)));
   TitledChart& chart = *parts_->chart;
   chart.ClearPlots();
   chart.heading = content.title;
@@ -208,7 +188,7 @@ void Chart::show(const ChartContent& content) {
     add_series(chart, content.series[i], colour, scale.factor, hidden, chart.scale);
     chart.names.push_back({content.series[i].name, colour});
   }
-  style_axis(*chart.GetAxis(vtkAxis::BOTTOM), Scale(1.0, "").title(content.x_label, content.x_unit), chart.scale);
+  style_axis(*chart.GetAxis(vtkAxis::BOTTOM), AxisScale().title(content.x_label, content.x_unit), chart.scale);
   style_axis(*chart.GetAxis(vtkAxis::LEFT), scale.title(content.y_label, content.y_unit), chart.scale);
   set_ticks(*chart.GetAxis(vtkAxis::BOTTOM), round_ticks(x.low, x.high, 8, content.whole_x), 0.02, 0.02);
   set_ticks(*chart.GetAxis(vtkAxis::LEFT),

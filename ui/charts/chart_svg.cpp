@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "ui/appearance/theme.hpp"
+#include "ui/charts/axis_scale.hpp"
 #include "ui/charts/chart_page.hpp"
 
 namespace nextview {
@@ -36,10 +37,6 @@ std::string hex(const Colour& c) {
   return fmt::format("#{:02x}{:02x}{:02x}", channel(c[0]), channel(c[1]), channel(c[2]));
 }
 
-std::string with_unit(const std::string& label, const std::string& unit) {
-  return unit.empty() ? label : fmt::format("{} [{}]", label, unit);
-}
-
 /// Where values lie on the page.
 class Axes {
  public:
@@ -59,17 +56,20 @@ class Axes {
       }
     if (x_low > x_high) x_low = 0, x_high = 1;
     if (y_high < y_low) y_high = y_low + 1;
+    scale = AxisScale::of(std::max(std::abs(y_low), std::abs(y_high)));
     x_ticks = round_ticks(x_low, x_high, 8, content.whole_x);
-    y_ticks = round_ticks(y_low, y_high, 5, false);
+    y_ticks = round_ticks(y_low / scale.factor, y_high / scale.factor, 5, false);
   }
 
   double x(double value) const { return left_ + share(value, x_ticks) * (right_ - left_); }
-  double y(double value) const { return bottom_ - share(value, y_ticks) * (bottom_ - top_); }
+  double y(double value) const { return y_of_tick(value / scale.factor); }
+  double y_of_tick(double tick) const { return bottom_ - share(tick, y_ticks) * (bottom_ - top_); }
   double left() const { return left_; }
   double right() const { return right_; }
   double top() const { return top_; }
   double bottom() const { return bottom_; }
 
+  AxisScale scale;  ///< of y
   std::vector<double> x_ticks, y_ticks;
 
  private:
@@ -95,8 +95,9 @@ std::string tick_text(double tick) { return fmt::format("{:g}", std::abs(tick) <
 std::string grid(const ChartContent& content, const Axes& axes) {
   std::string svg;
   for (const double tick : axes.y_ticks) {
-    svg += svg_line(axes.left(), axes.y(tick), axes.right(), axes.y(tick), theme::hairline);
-    svg += text(axes.left() - 8, axes.y(tick) + 4, tick_text(tick), theme::small_text, theme::soft_ink, "end");
+    const double y = axes.y_of_tick(tick);
+    svg += svg_line(axes.left(), y, axes.right(), y, theme::hairline);
+    svg += text(axes.left() - 8, y + 4, tick_text(tick), theme::small_text, theme::soft_ink, "end");
   }
   for (const double tick : axes.x_ticks) {
     svg += svg_line(axes.x(tick), axes.top(), axes.x(tick), axes.bottom(), theme::hairline);
@@ -104,10 +105,10 @@ std::string grid(const ChartContent& content, const Axes& axes) {
   }
   svg += svg_line(axes.left(), axes.bottom(), axes.right(), axes.bottom(), theme::soft_ink);
   svg += svg_line(axes.left(), axes.bottom(), axes.left(), axes.top(), theme::soft_ink);
-  svg += text(0.5 * (axes.left() + axes.right()), axes.bottom() + 38, with_unit(content.x_label, content.x_unit),
-              theme::small_text, theme::soft_ink, "middle");
+  svg += text(0.5 * (axes.left() + axes.right()), axes.bottom() + 38,
+              AxisScale().title(content.x_label, content.x_unit), theme::small_text, theme::soft_ink, "middle");
   const double x = axes.left() - left_margin + 14, y = 0.5 * (axes.top() + axes.bottom());
-  svg += text(x, y, with_unit(content.y_label, content.y_unit), theme::small_text, theme::soft_ink, "middle",
+  svg += text(x, y, axes.scale.title(content.y_label, content.y_unit), theme::small_text, theme::soft_ink, "middle",
               fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", x, y));
   return svg;
 }
@@ -136,29 +137,43 @@ std::string curve(const ChartContent& content, const ChartSeries& series, const 
   return svg + dots;
 }
 
-/// The curves' names in a row beneath the title. An estimate of their width will do: the fonts are the reader's.
-std::string names(const ChartContent& content, double x, double y) {
-  std::string svg;
-  if (content.series.size() < 2) return svg;
-  for (std::size_t i = 0; i < content.series.size(); ++i) {
-    const Colour& colour = theme::series[i % theme::series.size()];
-    svg +=
-        fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"16\" height=\"3\" fill=\"{}\"/>\n", x, y - 6, hex(colour));
-    svg += text(x + 22, y, content.series[i].name, theme::small_text, theme::ink, "start");
-    x += 22 + 7.2 * double(content.series[i].name.size()) + 18;
+/// The curves' names beneath the title, in as many rows as they need. An estimate of their width will do: the fonts are
+/// the reader's.
+class Names {
+ public:
+  Names(const ChartContent& content, double left, double top, double right) {
+    if (content.series.size() < 2) return;
+    double x = left, y = top;
+    for (std::size_t i = 0; i < content.series.size(); ++i) {
+      const std::string& name = content.series[i].name;
+      const auto letters = std::ranges::count_if(name, [](char c) { return (c & 0xC0) != 0x80; });  // of UTF-8
+      const double width = 22 + 7.2 * double(letters);
+      if (x > left && x + width > right) x = left, y += row;
+      svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"16\" height=\"3\" fill=\"{}\"/>\n", x, y - 6,
+                         hex(theme::series[i % theme::series.size()]));
+      svg += text(x + 22, y, name, theme::small_text, theme::ink, "start");
+      x += width + 18;
+    }
+    more_height = y - top;
   }
-  return svg;
-}
+
+  std::string svg;
+  double more_height = 0;  ///< than one row has [px]
+
+ private:
+  static constexpr double row = 18;  // [px]
+};
 
 std::string chart(const ChartContent& content, double left, double top, double width, double height) {
   for (const ChartSeries& series : content.series)
     if (series.x.size() != series.y.size())
       throw std::invalid_argument(
           fmt::format("series '{}': {} x for {} y", series.name, series.x.size(), series.y.size()));
-  const Axes axes(content, left, top, width, height);
+  const Names names(content, left + margin, top + 48, left + width - right_margin);
+  const Axes axes(content, left, top + names.more_height, width, height - names.more_height);
   std::string svg = "<g>\n" + text(left + margin, top + 26, content.title, theme::caption, theme::ink, "start",
                                    " font-weight=\"600\"");
-  svg += names(content, left + margin, top + 48);
+  svg += names.svg;
   svg += grid(content, axes);
   for (std::size_t i = 0; i < content.series.size(); ++i)
     svg += curve(content, content.series[i], axes, hex(theme::series[i % theme::series.size()]));

@@ -1,9 +1,11 @@
 // Charts as SVG: well formed, a line a series, each value where the ticks say that it is.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <limits>
 #include <regex>
+#include <set>
 
 #include "ui/charts/chart_page.hpp"
 
@@ -132,6 +134,30 @@ TEST(ChartSvg, SeriesAreNamedInTheirColoursIfThereAreSeveral) {
   EXPECT_EQ(all(drawn(), "<rect x[^>]* height=\"3\" fill=\"([^\"]*)\""), colours);
   const auto places = all(drawn(), "<text x=\"([^\"]*)\"[^>]*>(?:one|two)</text>");
   EXPECT_GT(std::stod(places.at(1)), std::stod(places.at(0)) + 30) << "beside each other";
+}
+
+TEST(ChartSvg, NamesThatDoNotFitBesideEachOtherStandInRows) {
+  ChartContent content{"t", "view", "", "gain", "nats", {}, {}, true};
+  const std::string umlauts = "\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc";
+  for (int i = 0; i < 9; ++i) content.series.push_back({umlauts, {0, 1}, {1, 2}});
+  const std::string svg = charts_svg(std::vector{content}, {640, 400}, false);
+  const auto x = all(svg, "<text x=\"([^\"]*)\"[^>]*>" + umlauts + "</text>");
+  const auto y = all(svg, "<text x=\"[^\"]*\" y=\"([^\"]*)\"[^>]*>" + umlauts + "</text>");
+  ASSERT_EQ(x.size(), 9u);
+  EXPECT_EQ(std::set(y.begin(), y.end()).size(), 3u) << "as many in a row as there is room for";
+  for (const std::string& at : x) EXPECT_LT(std::stod(at) + 7.2 * 12, 640 - 16);
+  const auto values = all(svg, "<circle cx=\"[^\"]*\" cy=\"([^\"]*)\"");
+  for (const std::string& at : values) EXPECT_GT(std::stod(at), std::stod(y.back())) << "beneath all names";
+}
+
+TEST(ChartSvg, LargeValuesAreShownInThousands) {
+  const ChartContent content{"t", "view", "", "entropy", "nats", {{"one", {0, 1}, {40'000, 20'000}}}, {}, true};
+  const std::string svg = charts_svg(std::vector{content}, {640, 400}, false);
+  EXPECT_THAT(svg, HasSubstr(">entropy [thousand nats]</text>"));
+  EXPECT_THAT(svg, HasSubstr("one: 40000 nats")) << "a value has all its digits";
+  const Scale y = scale(svg, "end", false);
+  EXPECT_EQ(y.value_b, 40.0);
+  EXPECT_EQ(all(svg, "<circle[^>]* cy=\"([^\"]*)\"").at(0), fmt::format("{:.2f}", y.at(40)));
 }
 
 TEST(ChartSvg, AValueSaysItsNumbers) {
