@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "ui/appearance/theme.hpp"
+#include "ui/appearance/markup.hpp"
 #include "ui/charts/axis_scale.hpp"
 #include "ui/charts/chart_page.hpp"
 
@@ -14,28 +14,6 @@ namespace nextview {
 namespace {
 
 constexpr double margin = 16, left_margin = 62, right_margin = 16, top_margin = 62, bottom_margin = 48;  // [px]
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
-std::string hex(const Colour& c) {
-  const auto channel = [](double value) { return int(std::lround(255 * value)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", channel(c[0]), channel(c[1]), channel(c[2]));
-}
 
 /// Where values lie on the page.
 class Axes {
@@ -81,13 +59,13 @@ class Axes {
 
 std::string svg_line(double x1, double y1, double x2, double y2, const Colour& colour) {
   return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2,
-                     hex(colour));
+                     markup_colour(colour));
 }
 
 std::string text(double x, double y, const std::string& words, int size, const Colour& colour, const char* anchor,
                  const std::string& more = "") {
   return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", x,
-                     y, size, hex(colour), anchor, more, escaped(words));
+                     y, size, markup_colour(colour), anchor, more, markup_text(words));
 }
 
 std::string tick_text(double tick) { return fmt::format("{:g}", std::abs(tick) < 1e-12 ? 0.0 : tick); }
@@ -130,8 +108,8 @@ std::string curve(const ChartContent& content, const ChartSeries& series, const 
     points += fmt::format("{}{:.2f},{:.2f}", points.empty() ? "" : " ", x, y);
     dots += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\" fill=\"{}\"><title>{}</title></circle>\n", x, y,
                         colour,
-                        escaped(fmt::format("{} {:g}, {}: {:g} {}", content.x_label, series.x[i], series.name,
-                                            series.y[i], content.y_unit)));
+                        markup_text(fmt::format("{} {:g}, {}: {:g} {}", content.x_label, series.x[i], series.name,
+                                                series.y[i], content.y_unit)));
   }
   end_line();
   return svg + dots;
@@ -150,7 +128,7 @@ class Names {
       const double width = 22 + 7.2 * double(letters);
       if (x > left && x + width > right) x = left, y += row;
       svg += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"16\" height=\"3\" fill=\"{}\"/>\n", x, y - 6,
-                         hex(theme::series[i % theme::series.size()]));
+                         markup_colour(theme::series[i % theme::series.size()]));
       svg += text(x + 22, y, name, theme::small_text, theme::ink, "start");
       x += width + 18;
     }
@@ -176,7 +154,7 @@ std::string chart(const ChartContent& content, double left, double top, double w
   svg += names.svg;
   svg += grid(content, axes);
   for (std::size_t i = 0; i < content.series.size(); ++i)
-    svg += curve(content, content.series[i], axes, hex(theme::series[i % theme::series.size()]));
+    svg += curve(content, content.series[i], axes, markup_colour(theme::series[i % theme::series.size()]));
   return svg + "</g>\n";
 }
 
@@ -189,7 +167,8 @@ std::string charts_svg(std::span<const ChartContent> charts, const PictureSize& 
       "height=\"{}\" "
       "viewBox=\"0 0 {} {}\" font-family=\"Inter, Helvetica, Arial, sans-serif\">\n",
       size.width, size.height, page.width, page.height);
-  if (!transparent) svg += fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", hex(theme::paper));
+  if (!transparent)
+    svg += fmt::format("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", markup_colour(theme::paper));
   const std::size_t columns = charts.size() > 1 ? 2 : 1, rows = (charts.size() + columns - 1) / columns;
   const double width = double(page.width) / double(columns), height = double(page.height) / double(rows);
   for (std::size_t i = 0; i < charts.size(); ++i)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/appearance/markup.hpp"
+
 namespace nextview {
 namespace {
 
@@ -26,27 +28,6 @@ summary { cursor: pointer; color: var(--soft); margin: 4px 0; }
 
 }  // namespace
 
-std::string html_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  return result;
-}
-
 std::string html_table(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& cells,
                        std::size_t first_number) {
   const auto row = [&](const std::vector<std::string>& values, const char* tag) {
@@ -65,7 +46,7 @@ std::string html_page(const std::string& title, const std::string& body) {
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n"
       "<style>{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-      html_text(title), style, body);
+      markup_text(title), style, body);
 }
 
 }  // namespace nextview

@@ -1,12 +1,8 @@
 #pragma once
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nextview {
-
-/// Text as HTML shows it, whatever it holds.
-std::string html_text(std::string_view text);
 
 /// A table: `cells` are HTML; of columns from `first_number` on they stand right.
 std::string html_table(const std::vector<std::string>& columns, const std::vector<std::vector<std::string>>& cells,

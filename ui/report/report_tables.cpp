@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/file/counted.hpp"
+#include "ui/appearance/markup.hpp"
 #include "ui/report/html.hpp"
 #include "ui/report/study_chart_parts.hpp"
 #include "ui/report/study_report.hpp"
@@ -85,7 +86,7 @@ class Rows {
 Cells columns(const Rows& rows, bool of_means) {
   Cells cells = {"method", of_means ? "objects" : "runs", heading_of(rows.part())};
   if (rows.has_reference()) {
-    cells.push_back("difference to " + html_text(in_words(rows.reference())) + ", pairwise");
+    cells.push_back("difference to " + markup_text(in_words(rows.reference())) + ", pairwise");
     cells.emplace_back(of_means ? "better on" : "better in");
   }
   if (rows.part() == StudyPart::planning) cells.emplace_back("gap closed");
@@ -99,7 +100,7 @@ Cells columns(const Rows& rows, bool of_means) {
 Cells cells_of(const Rows& rows, const std::string& method) {
   const SummaryRow* main = rows.find(method, main_measure(rows.part()));
   if (!main) return {};
-  Cells cells = {html_text(in_words(method)), fmt::format("{}", main->runs), with_spread(*main, rows.part())};
+  Cells cells = {markup_text(in_words(method)), fmt::format("{}", main->runs), with_spread(*main, rows.part())};
   if (rows.has_reference()) {
     const SummaryRow* pairs = rows.comparison(method);
     cells.push_back(pairs ? with_spread(*pairs, rows.part()) : "");
@@ -114,7 +115,7 @@ Cells cells_of(const Rows& rows, const std::string& method) {
     cells.push_back(row ? fixed(row->mean / extra.unit, extra.digits) : "");
   }
   cells.push_back(fmt::format("{}-{}", main->first_run, main->last_run));
-  cells.push_back("<code>" + html_text(main->hash) + "</code>");
+  cells.push_back("<code>" + markup_text(main->hash) + "</code>");
   return cells;
 }
 
@@ -127,13 +128,13 @@ std::string table_of(const SummaryTable& table, const StudySetting& setting, con
 }
 
 std::string setting_section(const SummaryTable& table, const StudySetting& setting) {
-  std::string text = fmt::format("<h3>Sensor {}, {}</h3>\n", html_text(in_words(setting.sensor)),
+  std::string text = fmt::format("<h3>Sensor {}, {}</h3>\n", markup_text(in_words(setting.sensor)),
                                  counted(std::uint64_t(setting.views), "view"));
   text += table_of(table, setting, mean_object);
   const auto objects = table.objects(setting, main_measure(setting.part));
   text += fmt::format("<details><summary>by object ({})</summary>\n", objects.size());
   for (const std::string& object : objects)
-    text += fmt::format("<h4>{}</h4>\n", html_text(in_words(object))) + table_of(table, setting, object);
+    text += fmt::format("<h4>{}</h4>\n", markup_text(in_words(object))) + table_of(table, setting, object);
   return text + "</details>\n";
 }
 
@@ -168,7 +169,7 @@ std::string block_text(const StudyBlock& block) {
   std::string text = fmt::format("Objects {}; seeds {}", fmt::join(objects, ", "), fmt::join(block.seeds, ", "));
   if (block.part == StudyPart::planning)
     text += fmt::format("; start views (azimuth, elevation) at {} degrees", fmt::join(block.starts, ", "));
-  return html_text(text + ".");
+  return markup_text(text + ".");
 }
 
 }  // namespace
@@ -186,8 +187,9 @@ std::string report_overview(const Study& study, const SummaryTable& table) {
         if (row.empty()) continue;
         row.resize(5);  // up to the comparison
         row.insert(row.begin(),
-                   {fmt::format("{}", i + 1), html_text(in_words(setting.sensor)), fmt::format("{}", setting.views)});
-        row[6] += rows.reference().empty() || row[6].empty() ? "" : " (" + html_text(in_words(rows.reference())) + ")";
+                   {fmt::format("{}", i + 1), markup_text(in_words(setting.sensor)), fmt::format("{}", setting.views)});
+        row[6] +=
+            rows.reference().empty() || row[6].empty() ? "" : " (" + markup_text(in_words(rows.reference())) + ")";
         cells.push_back(std::move(row));
       }
     }

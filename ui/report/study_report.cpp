@@ -6,6 +6,7 @@
 #include "core/file/json_text.hpp"
 #include "core/file/read_file.hpp"
 #include "core/study/study_folder.hpp"
+#include "ui/appearance/markup.hpp"
 #include "ui/report/html.hpp"
 #include "ui/report/study_charts.hpp"
 
@@ -24,7 +25,7 @@ Json study_json(const fs::path& folder) {
 }
 
 std::string text_of(const Json& value) {
-  return html_text(value.is_string() ? value.get<std::string>() : json_text(value));
+  return markup_text(value.is_string() ? value.get<std::string>() : json_text(value));
 }
 
 /// What it is, and how to have it again.
@@ -32,7 +33,7 @@ std::string head(const fs::path& folder, const Study& study, const Json& json) {
   const FileHash summary = file_hash(folder / "summary.csv");
   std::string text = fmt::format(
       "<h1>Study {}</h1>\n<p class=\"soft\">{}, {} runs; summary.csv of {} bytes, crc32 {}</p>\n",
-      html_text(study.name), text_of(json.at("program")), text_of(json.at("runs")), summary.bytes, summary.crc32);
+      markup_text(study.name), text_of(json.at("program")), text_of(json.at("runs")), summary.bytes, summary.crc32);
   text +=
       "<p>Each row of the tables stands for the runs in its column <em>of runs</em>; its hash is of their keys, which "
       "follow from the program's version, the settings and the bytes of the objects. With the study's file (at the end "
@@ -52,7 +53,7 @@ std::string figures(const SummaryTable& table) {
       text += fmt::format(
           "<figure>\n{}<figcaption>{} <code>nextview figure {} --study STUDY --out figures</code>"
           "</figcaption>\n</figure>\n",
-          drawing->svg(), html_text(figure.caption), figure.name);
+          drawing->svg(), markup_text(figure.caption), figure.name);
   return text;
 }
 
@@ -60,7 +61,7 @@ std::string failures(const SummaryTable& table) {
   std::vector<std::vector<std::string>> cells;
   for (const SummaryRow& row : table.rows())
     if (row.measure == "failure")
-      cells.push_back({html_text(row.object), html_text(row.sensor), html_text(row.method), html_text(row.note),
+      cells.push_back({markup_text(row.object), markup_text(row.sensor), markup_text(row.method), markup_text(row.note),
                        fmt::format("{}", row.runs), fmt::format("{}-{}", row.first_run, row.last_run)});
   if (cells.empty()) return "<h2>Runs that came to nothing</h2>\n<p>None.</p>\n";
   return "<h2>Runs that came to nothing</h2>\n" +
@@ -72,7 +73,7 @@ std::string seconds(const fs::path& folder) {
   if (timings.empty()) return {};
   TimeTable table = time_table(timings);
   for (auto& row : table.rows)
-    for (std::string& cell : row) cell = html_text(cell);
+    for (std::string& cell : row) cell = markup_text(cell);
   return "<h2>Seconds a view</h2>\n<p>On the machine that the study ran on; the only numbers here that differ from one "
          "time to the next.</p>\n<details><summary>by method and stage</summary>\n" +
          html_table(table.columns, table.rows, 4) + "</details>\n";
@@ -80,9 +81,9 @@ std::string seconds(const fs::path& folder) {
 
 std::string inputs(const Json& json, const Study& study) {
   std::vector<std::vector<std::string>> cells;
-  for (const auto& [object, said] : json.at("objects").items()) cells.push_back({html_text(object), text_of(said)});
+  for (const auto& [object, said] : json.at("objects").items()) cells.push_back({markup_text(object), text_of(said)});
   return "<h2>Inputs</h2>\n" + html_table({"object", "its file"}, cells, 2) + "<h3>The study's file</h3>\n<pre>" +
-         html_text(study.text) + "</pre>\n";
+         markup_text(study.text) + "</pre>\n";
 }
 
 }  // namespace

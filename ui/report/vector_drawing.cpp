@@ -11,24 +11,10 @@
 #include <sstream>
 
 #include "ui/appearance/colour_map.hpp"
+#include "ui/appearance/markup.hpp"
 #include "ui/charts/page.hpp"
 
 namespace nextview {
-namespace {
-
-std::string hex(const Colour& c) {
-  const auto channel = [](double value) { return int(std::lround(255 * value)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", channel(c[0]), channel(c[1]), channel(c[2]));
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return result;
-}
-
-}  // namespace
-
 Look Look::light() { return {theme::paper, theme::ink, theme::soft_ink, theme::hairline}; }
 
 Look Look::dark() {
@@ -90,19 +76,19 @@ class VectorDrawing::SvgWriter {
  public:
   std::string operator()(const Line& line) const {
     return fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{} points=\"{}\"/>\n",
-                       hex(line.colour), line.thickness, line.dashed ? " stroke-dasharray=\"5 4\"" : "",
+                       markup_colour(line.colour), line.thickness, line.dashed ? " stroke-dasharray=\"5 4\"" : "",
                        list(line.points));
   }
   std::string operator()(const Area& area) const {
-    return fmt::format("<polygon fill=\"{}\"{} points=\"{}\"/>\n", hex(area.colour),
+    return fmt::format("<polygon fill=\"{}\"{} points=\"{}\"/>\n", markup_colour(area.colour),
                        area.opacity < 1.0 ? fmt::format(" fill-opacity=\"{:g}\"", area.opacity) : "",
                        list(area.corners));
   }
   std::string operator()(const Text& text) const {
     constexpr const char* anchors[] = {"start", "middle", "end"};
     return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"{}>{}</text>\n",
-                       text.x, text.y, text.size, hex(text.colour), anchors[int(text.align)],
-                       text.bold ? " font-weight=\"600\"" : "", escaped(text.words));
+                       text.x, text.y, text.size, markup_colour(text.colour), anchors[int(text.align)],
+                       text.bold ? " font-weight=\"600\"" : "", markup_text(text.words));
   }
   std::string operator()(const Picture&) const { return {}; }
 
@@ -120,7 +106,7 @@ std::string VectorDrawing::svg(std::optional<double> printed_width) const {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{3:g}{5}\" height=\"{4:g}{5}\" viewBox=\"0 0 {0:g} {1:g}\" "
       "font-family=\"Inter, Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"{2}\"/>\n",
-      width_, height_, hex(look_.paper), scale * width_, scale * height_, printed_width ? "mm" : "");
+      width_, height_, markup_colour(look_.paper), scale * width_, scale * height_, printed_width ? "mm" : "");
   for (const auto& shape : shapes_) svg += std::visit(SvgWriter(), shape);
   return svg + "</svg>\n";
 }
