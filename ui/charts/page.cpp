@@ -97,11 +97,15 @@ double paint_title(Painter& painter, double page_width, double page_height, cons
 }
 
 std::vector<std::string> wrapped(Painter& painter, const std::string& text, double width, int size) {
+  return wrapped(text, [&](const std::string& line) { return painter.text_width(line, size) <= width; });
+}
+
+std::vector<std::string> wrapped(const std::string& text, const std::function<bool(const std::string&)>& fits) {
   std::vector<std::string> lines;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    if (!lines.empty() && painter.text_width(longer, size) <= width)
+    if (!lines.empty() && fits(longer))
       lines.back() = longer;
     else
       lines.push_back(word);

@@ -44,6 +44,8 @@ double paint_title(Painter& painter, double page_width, double page_height, cons
 
 /// The text in lines that are no wider than `width` [px], broken between words.
 std::vector<std::string> wrapped(Painter& painter, const std::string& text, double width, int size);
+/// The same in lines that fit, each as long as it can be.
+std::vector<std::string> wrapped(const std::string& text, const std::function<bool(const std::string&)>& fits);
 
 /// The picture with its lower left corner at (x, y), pixel by pixel: whole numbers keep it crisp.
 void paint_image(vtkContext2D& context, double x, double y, const Image& image);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "ui/appearance/colour_map.hpp"
 #include "ui/appearance/markup.hpp"
@@ -196,16 +195,7 @@ double text_width(const std::string& words, int size) {
 }
 
 std::vector<std::string> broken_to(double width, const std::string& words, int size) {
-  std::vector<std::string> lines;
-  std::istringstream text(words);
-  for (std::string word; text >> word;) {
-    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
-    if (lines.empty() || text_width(longer, size) > width)
-      lines.push_back(word);
-    else
-      lines.back() = longer;
-  }
-  return lines;
+  return wrapped(words, [&](const std::string& line) { return text_width(line, size) <= width; });
 }
 
 }  // namespace nextview
