@@ -199,8 +199,9 @@ void SessionWorker::attempt(std::uint64_t number, const SessionRequest& request)
   if (!failed) finish(request, *before);
   const std::lock_guard lock(mutex_);
   const bool taken = after->records.size() > before->records.size();
-  if (number > 0 || taken) done_.push_back({number, failed});
-  if (failed || !runner_.can_step() || (is<request::Step>(request) && !taken)) progress_.playing = false;
+  const bool came_to_nothing = failed || (is<request::Step>(request) && !taken);  // a cancelled step does not fail
+  if (number > 0 || taken) done_.push_back({number, came_to_nothing});
+  if (came_to_nothing || !runner_.can_step()) progress_.playing = false;
   snapshot_ = after;
 }
 
