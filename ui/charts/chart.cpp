@@ -153,15 +153,8 @@ void Chart::attach(RenderTarget& target, const Viewport& viewport) {
   target.window().AddRenderer(renderer_);
 }
 
-void Chart::set_scale(double scale) {
-  TitledChart& chart = *parts_->chart;
-  for (const int side : {vtkAxis::BOTTOM, vtkAxis::LEFT}) {
-    vtkAxis& axis = *chart.GetAxis(side);
-    axis.SetTickLength(float(axis.GetTickLength() * scale / chart.scale));
-    axis.SetLabelOffset(float(axis.GetLabelOffset() * scale / chart.scale));
-  }
-  chart.scale = scale;
-}
+/// How far labels are from their axis stays: VTK has a fixed distance for the title behind them.
+void Chart::set_scale(double scale) { parts_->chart->scale = scale; }
 
 void Chart::show(const ChartContent& content) {
   Extent x, y;
