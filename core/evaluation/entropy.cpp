@@ -58,7 +58,8 @@ Sums change(const Brick& before, const Brick& after) {
 
 void require_same_size(const VoxelBricks& before, const VoxelBricks& after) {
   if (before.edges() != after.edges())
-    throw std::invalid_argument(fmt::format("map change: {} voxels before, {} after", before.size(), after.size()));
+    throw std::invalid_argument(
+        fmt::format("maps to be compared: one has {} voxels, the other {}", before.size(), after.size()));
 }
 
 }  // namespace

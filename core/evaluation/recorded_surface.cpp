@@ -1,8 +1,5 @@
 #include "core/evaluation/recorded_surface.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +10,7 @@
 
 #include "core/evaluation/coverage.hpp"
 #include "core/evaluation/covering_order.hpp"
+#include "core/progress/make_ahead.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/random/counter_random.hpp"
 
@@ -63,19 +61,18 @@ RecordedSurface::RecordedSurface(std::size_t frames, const std::function<PointCl
     : d_reg_(d_reg) {
   std::vector<PointCloud> thinned(frames);
   Cells taken;
-  // No more frames than are read at the same time: each may be large.
-  const auto at_once = std::size_t(std::clamp(tbb::this_task_arena::max_concurrency(), 1, 8));
-  for (std::size_t frame = 0; frame < frames; ++frame) {
+  const auto begin = [&](std::size_t frame) {
     if (progress) progress(double(frame) / double(frames), "reading what the frames show");
     throw_if_stopped(stop);
-    if (frame % at_once == 0)
-      tbb::parallel_for(frame, std::min(frames, frame + at_once), [&](std::size_t f) {
-        Cells of_frame;
-        thinned[f] = first_of_each_cell(cloud_of(f), 0.5 * d_reg, of_frame);
-      });
+  };
+  const auto thin = [&](std::size_t frame) {
+    Cells of_frame;
+    thinned[frame] = first_of_each_cell(cloud_of(frame), 0.5 * d_reg, of_frame);
+  };
+  make_ahead(frames, begin, thin, [&](std::size_t frame) {
     const PointCloud added = first_of_each_cell(thinned[frame], 0.5 * d_reg, taken);
     samples_.insert(samples_.end(), added.begin(), added.end());
-  }
+  });
   if (samples_.empty()) throw std::invalid_argument("no frame has a point");
   const SurfaceCoverage nothing(samples_, d_reg);
   for (const PointCloud& points : thinned) seen_from_.push_back(observed_by(nothing, points, stop));
@@ -100,7 +97,7 @@ std::vector<double> RecordedSurface::coverage(std::span<const std::size_t> order
 }
 
 double RecordedSurface::covered_by(std::span<const std::size_t> frames) const {
-  const std::scoped_lock lock(covering_);
+  const std::scoped_lock lock(memory_);
   const std::size_t before = covered_.frames.size();
   if (before > frames.size() || !std::ranges::equal(covered_.frames, frames.first(before))) covered_ = {};
   covered_.seen.resize(samples_.size());
@@ -127,7 +124,7 @@ std::vector<double> RecordedSurface::random_coverage(std::size_t first, std::uin
 
 CoverageByOrder RecordedSurface::compare_orders(std::span<const std::size_t> taken, std::uint64_t seed) const {
   const std::size_t first = taken.front();
-  const std::scoped_lock lock(comparing_);
+  const std::scoped_lock lock(memory_);
   if (!others_ || others_->first != first || others_->seed != seed)
     others_ = OtherOrders{first, seed, coverage(in_order_from(first, frames())), random_coverage(first, seed)};
   return {coverage(taken), others_->recorded, others_->random};

@@ -20,7 +20,7 @@ struct CoverageByOrder {
 };
 
 /// What all frames of a recording show together: where no mesh is known, the final cloud is what coverage is a share
-/// of. Never changes.
+/// of. What it says never changes; two answers that are asked for again and again are remembered.
 class RecordedSurface {
  public:
   /// `cloud_of` gives the cleaned points of a frame [m, world]; each is asked for once, several at a time by different
@@ -68,10 +68,9 @@ class RecordedSurface {
   double d_reg_;
   PointCloud samples_;
   std::vector<std::vector<std::uint32_t>> seen_from_;
-  mutable std::mutex covering_;
-  mutable Covered covered_;  ///< that was asked for last
-  mutable std::mutex comparing_;
-  mutable std::optional<OtherOrders> others_;  ///< those that were asked for last
+  mutable std::mutex memory_;  ///< of the two answers below, those that were asked for last
+  mutable Covered covered_;
+  mutable std::optional<OtherOrders> others_;
 };
 
 }  // namespace nextview

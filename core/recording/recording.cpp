@@ -1,16 +1,14 @@
 #include "core/recording/recording.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <exception>
 #include <optional>
-#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "core/file/counted.hpp"
+#include "core/progress/make_ahead.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/recording/cloud_camera.hpp"
 #include "core/recording/cloud_file.hpp"
@@ -53,11 +51,10 @@ PointsExtent extent_of(const DepthImage& image, const Pose& T_world_camera) {
   return extent;
 }
 
-/// What a frame measured, or why it cannot be read.
+/// What a frame measured.
 struct ReadFrame {
   Measured measured;
   PointsExtent extent;  ///< of an image
-  std::exception_ptr failure;
 };
 
 /// What all frames together measured.
@@ -114,44 +111,35 @@ class Survey {
   std::vector<std::string> empty_;  ///< names of frames
 };
 
-/// By several threads, with all that takes long and follows from one frame alone.
-std::vector<ReadFrame> read_frames(std::span<const RecordedFrame> frames) {
-  std::vector<ReadFrame> all(frames.size());
-  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-    try {
-      all[i].measured = frames[i].read();
-      if (const auto* image = std::get_if<DepthImage>(&all[i].measured))
-        all[i].extent = extent_of(*image, frames[i].T_world_camera);
-    } catch (...) {  // it is told of when it is its turn, so that the first that is damaged is
-      all[i].failure = std::current_exception();
-    }
-  });
-  return all;
+/// With all that takes long and follows from one frame alone.
+ReadFrame read_frame(const RecordedFrame& frame) {
+  ReadFrame read{frame.read(), {}};
+  if (const auto* image = std::get_if<DepthImage>(&read.measured))
+    read.extent = extent_of(*image, frame.T_world_camera);
+  return read;
 }
 
 Survey survey(const fs::path& path, const Recording& recording, const Progress& progress, const std::stop_token& stop) {
   Survey survey;
-  const std::span<const RecordedFrame> frames = recording.frames;
-  // No more than are read at the same time: each may be large.
-  const auto at_once = std::size_t(std::clamp(tbb::this_task_arena::max_concurrency(), 1, 8));
-  std::vector<ReadFrame> ahead;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  const std::vector<RecordedFrame>& frames = recording.frames;
+  const auto begin = [&](std::size_t i) {
     throw_if_stopped(stop);
-    const RecordedFrame& frame = frames[i];
-    if (progress) progress(static_cast<double>(i) / static_cast<double>(frames.size()), "reading " + frame.name);
-    if (i % at_once == 0) ahead = read_frames(frames.subspan(i, std::min(at_once, frames.size() - i)));
-    const ReadFrame& read = ahead[i % at_once];
-    if (read.failure) std::rethrow_exception(read.failure);
+    if (progress) progress(double(i) / double(frames.size()), "reading " + frames[i].name);
+  };
+  std::vector<ReadFrame> read(frames.size());
+  const auto add = [&](std::size_t i) {
     try {
-      survey.add(frame, read);
+      survey.add(frames[i], std::exchange(read[i], {}));
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), frame.name, error.what()));
+      throw std::runtime_error(fmt::format("{}: {}: {}", path.string(), frames[i].name, error.what()));
     }
-  }
+  };
+  make_ahead(
+      frames.size(), begin, [&](std::size_t i) { read[i] = read_frame(frames[i]); }, add);
   if (progress) progress(1.0, "reading");
   if (survey.points() == 0)
     throw std::runtime_error(
-        fmt::format("{}: its {} measured nothing", path.string(), counted(recording.frames.size(), "frame")));
+        fmt::format("{}: its {} measured nothing", path.string(), counted(frames.size(), "frame")));
   return survey;
 }
 
