@@ -96,7 +96,9 @@ Capture read_capture(const CapturedFile& captured, const fs::path& folder, const
     capture.measured = points_of_ply(file);
   else
     refuse(file, "is of no kind that a capture is read from: .npy, .png, .ply");
-  if (is_empty(capture.measured)) refuse(file, "nothing was measured: it holds neither a range nor a free way");
+  if (is_empty(capture.measured))
+    throw NothingMeasured(
+        fmt::format("{}: nothing was measured: it holds neither a range nor a free way", printable(file.string())));
   require_unit(file, capture);
   return capture;
 }

@@ -152,8 +152,8 @@ Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed
   std::error_code error;
   if (std::filesystem::create_directories(options_.folder, error)) made_folder_ = true;
   if (error)
-    return Failure{Failure::no_data, fmt::format("{}: the folder for captures cannot be made: {}",
-                                                 printable(options_.folder.string()), error.message())};
+    return Failure{Failure::unusable, fmt::format("{}: the folder for captures cannot be made: {}",
+                                                  printable(options_.folder.string()), error.message())};
   const Result<CapturedFile> captured =
       noted(protocol_->capture(step, seed, options_.folder, {patience(), std::move(stop)}));
   if (const auto* failure = std::get_if<Failure>(&captured)) return *failure;
@@ -162,14 +162,19 @@ Result<Capture> DriverConnection::capture(std::uint32_t step, std::uint64_t seed
     if (std::filesystem::path(file.file).filename() == file.file)  // in our own folder: no one else's
       std::filesystem::remove(options_.folder / file.file, error);
   };
+  const auto failed = [&](Failure::Kind kind, const std::exception& why) {
+    remove_file();
+    return Failure{kind, fmt::format("driver {}: capture: {}", protocol_->name(), why.what())};
+  };
   try {
     Capture capture = read_capture(file, options_.folder, greeting_.camera, greeting_.max_range);
     remove_file();
     stands_at(capture.T_world_camera = capture.T_world_camera * options_.T_flange_camera);
     return capture;
+  } catch (const NothingMeasured& why) {
+    return failed(Failure::no_data, why);
   } catch (const std::runtime_error& unreadable) {
-    remove_file();
-    return Failure{Failure::no_data, fmt::format("driver {}: capture: {}", protocol_->name(), unreadable.what())};
+    return failed(Failure::unusable, unreadable);
   }
 }
 

@@ -117,14 +117,14 @@ Result<std::vector<Reach>> DriverProtocol::reach(const Pose& from, std::span<con
       ask("reach", json_text(Json{{"from", by_rows(from)}, {"poses", std::move(list)}}), Failure::disconnected, wait);
   return read_answer<std::vector<Reach>>(
       answer, [&](const DriverAnswer& a) { return a.reaches("reach", poses.size()); },
-      [&](const std::string& reason) { return failure(Failure::no_data, "reach: " + reason); });
+      [&](const std::string& reason) { return failure(Failure::unusable, "reach: " + reason); });
 }
 
 Result<Pose> DriverProtocol::move(const Pose& T_world_camera, const Wait& wait) {
   const auto answer = ask("move", json_text(Json{{"pose", by_rows(T_world_camera)}}), Failure::unreachable, wait);
   return read_answer<Pose>(
       answer, [](const DriverAnswer& a) { return a.pose("pose"); },
-      [&](const std::string& reason) { return failure(Failure::no_data, "move: " + reason); });
+      [&](const std::string& reason) { return failure(Failure::unusable, "move: " + reason); });
 }
 
 Result<CapturedFile> DriverProtocol::capture(std::uint32_t step, std::uint64_t seed,
@@ -132,10 +132,10 @@ Result<CapturedFile> DriverProtocol::capture(std::uint32_t step, std::uint64_t s
   const auto answer = ask("capture", json_text(Json{{"step", step}, {"seed", seed}, {"folder", folder.string()}}),
                           Failure::no_data, wait);
   return read_answer<CapturedFile>(answer, captured_file_of, [&](const std::string& reason) {
-    return failure(Failure::no_data, "capture: " + reason);
+    return failure(Failure::unusable, "capture: " + reason);
   });
 } catch (const Json::exception&) {
-  return failure(Failure::no_data, "capture: the folder's name is not UTF-8: " + printable(folder.string()));
+  return failure(Failure::unusable, "capture: the folder's name is not UTF-8: " + printable(folder.string()));
 }
 
 /// `what` it is asked, and with it a JSON object that is not empty.

@@ -66,7 +66,8 @@ std::string region_of_first_scan(const Configuration& c, DriverConnection& conne
   const Result<Capture> capture = connection.capture(1, c.seed, stop);
   if (const auto* failure = std::get_if<Failure>(&capture)) {
     if (failure->kind == Failure::cancelled) throw Stopped();
-    const bool may_look_elsewhere = failure->kind != Failure::disconnected;
+    // A capture of the wrong size, or a file that is damaged, is so wherever the camera looks.
+    const bool may_look_elsewhere = failure->kind == Failure::no_data;
     throw std::runtime_error(failure->reason + (may_look_elsewhere
                                                     ? "; the first scan is to show where the object stands, unless "
                                                       "map.region gives its box: six numbers [m]"

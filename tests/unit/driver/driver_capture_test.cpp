@@ -136,6 +136,8 @@ TEST(DriverCapture, OfNothingIsNone) {
   EXPECT_EQ(of_ranges(DepthImage::beyond_range), "it was read") << "that the way is free was";
   write_ply({}, folder / "a.ply");
   EXPECT_THAT(reason(file("a.ply"), folder), HasSubstr("nothing was measured"));
+  EXPECT_THROW(read_capture(file("a.ply"), folder / "", camera, 2.0), NothingMeasured)
+      << "who can look elsewhere is told from whose file is wrong";
 }
 
 TEST(DriverCapture, MustBeARegularFileOfAKnownKind) {

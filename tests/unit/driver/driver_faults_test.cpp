@@ -22,8 +22,8 @@ struct Fault {
 std::vector<Fault> faults_of_any_request(const char* request) {
   constexpr auto lost = Failure::disconnected;
   const bool hello = request == std::string("hello");
-  const auto wrong = hello ? lost : Failure::no_data;
-  const auto own = request == std::string("move") ? Failure::unreachable : wrong;
+  const auto wrong = hello ? lost : Failure::unusable;
+  const auto own = request == std::string("move") ? Failure::unreachable : hello ? lost : Failure::no_data;
   const bool reach = request == std::string("reach");
   return {{"die", request, lost, "it ended with exit code 3"},
           {"killed", request, lost, "signal 9"},
@@ -48,26 +48,26 @@ std::vector<Fault> quick_faults() {
       if (fault.name == std::string("null") && request == std::string("reach")) fault.reason = "there is no 'rotation'";
       faults.push_back(fault);
     }
-  constexpr auto lost = Failure::disconnected, no_data = Failure::no_data;
+  constexpr auto lost = Failure::disconnected, unusable = Failure::unusable;
   const std::vector<Fault> others = {
       {"version", "hello", lost, "it speaks version 2 of the protocol, and this program version 1"},
       {"wrong_size", "hello", lost, "'width' must be from 1 to 16384, not -4"},
       {"another", "hello", lost, "another scanner"},
-      {"wrong_size", "reach", no_data, "each of 2 poses"},
-      {"negative", "reach", no_data, "'distance' must be at least 0, not -1"},
-      {"wrong_type", "move", no_data, "'pose' must be a list of 16 numbers, not \"here\""},
-      {"few", "move", no_data, "'pose' must be a list of 16 numbers, not [1,0,0]"},
-      {"not_rigid", "move", no_data, "'pose' is no rigid pose"},
-      {"none_said", "move", no_data, "there is no 'pose'"},
-      {"none_said", "capture", no_data, "there is no 'pose'"},
-      {"not_rigid", "capture", no_data, "'pose' is no rigid pose"},
-      {"wrong_size", "capture", no_data, "has 4 x 4 pixels; the driver's camera has 4 x 3"},
-      {"whole_numbers", "capture", no_data, "'<i8'"},
-      {"all_nan", "capture", no_data, "nothing was measured"},
-      {"short_file", "capture", no_data, "bytes of values"},
-      {"negative", "capture", no_data, "holds the range -1"},
-      {"missing_file", "capture", no_data, "missing.npy"},
-      {"folder", "capture", no_data, "of no kind"},
+      {"wrong_size", "reach", unusable, "each of 2 poses"},
+      {"negative", "reach", unusable, "'distance' must be at least 0, not -1"},
+      {"wrong_type", "move", unusable, "'pose' must be a list of 16 numbers, not \"here\""},
+      {"few", "move", unusable, "'pose' must be a list of 16 numbers, not [1,0,0]"},
+      {"not_rigid", "move", unusable, "'pose' is no rigid pose"},
+      {"none_said", "move", unusable, "there is no 'pose'"},
+      {"none_said", "capture", unusable, "there is no 'pose'"},
+      {"not_rigid", "capture", unusable, "'pose' is no rigid pose"},
+      {"wrong_size", "capture", unusable, "has 4 x 4 pixels; the driver's camera has 4 x 3"},
+      {"whole_numbers", "capture", unusable, "'<i8'"},
+      {"all_nan", "capture", Failure::no_data, "nothing was measured"},
+      {"short_file", "capture", unusable, "bytes of values"},
+      {"negative", "capture", unusable, "holds the range -1"},
+      {"missing_file", "capture", unusable, "missing.npy"},
+      {"folder", "capture", unusable, "of no kind"},
   };
   faults.insert(faults.end(), others.begin(), others.end());
   return faults;

@@ -4,12 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/file/npy_file.hpp"
+#include "core/sensor/depth_image.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 class DriverSetup : public testing::Test {
@@ -27,6 +31,17 @@ class DriverSetup : public testing::Test {
     try {
       connect(more);
     } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "it is connected";
+  }
+
+  /// Why nothing comes of a scanner whose region its first scan is to show, where it runs this then.
+  std::string first_scan_fails(const std::string& then) {
+    c_ = {};
+    try {
+      connect({}, then);
+    } catch (const std::runtime_error& error) {
       return error.what();
     }
     return "it is connected";
@@ -76,21 +91,31 @@ TEST_F(DriverSetup, ASimulatorsSettingsAreFollowed) {
 
 // Without a region the object is looked for in a first scan. That a region would do helps whoever can look elsewhere.
 TEST_F(DriverSetup, AFirstScanThatFailsIsToldWithWhatHelps) {
-  const auto reason = [&](const std::string& then) -> std::string {
-    c_ = {};
-    try {
-      connect({}, then);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "it is connected";
-  };
-  EXPECT_EQ(reason(R"(echo '{"id":2,"error":"it is dark"}')"),
+  EXPECT_EQ(first_scan_fails(R"(echo '{"id":2,"error":"it is dark"}')"),
             "driver canned: capture: it is dark; the first scan is to show where the object stands, unless map.region "
             "gives its box: six numbers [m]");
-  EXPECT_EQ(reason("exit 3"), "driver canned: it ended with exit code 3");
-  EXPECT_EQ(reason("echo done"),
+  EXPECT_EQ(first_scan_fails("exit 3"), "driver canned: it ended with exit code 3");
+  EXPECT_EQ(first_scan_fails("echo done"),
             "driver canned: capture: its answer is no JSON (what is for people goes to standard error): done");
+}
+
+/// What is wrong with a file is wrong wherever the object stands; where nothing was in sight its box helps.
+TEST_F(DriverSetup, ARegionIsAskedForWhereNothingWasSeenNotWhereTheCaptureIsWrong) {
+  const auto captures = [&](const std::string& file) {
+    const std::string identity = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+    return first_scan_fails(R"(echo '{"id":2,"ok":true,"pose":)" + identity + R"(,"file":")" + file + "\"}'");
+  };
+  const std::string file = (folder_ / "capture.npy").string();
+  const std::string begin = "driver canned: capture: " + file + ": ";
+  write_npy({4, 4, std::vector<float>(16, 0.5f)}, file);
+  EXPECT_EQ(captures(file), begin + "has 4 x 4 pixels; the driver's camera has 4 x 3");
+  write_npy({4, 3, std::vector<float>(12, DepthImage::invalid)}, file);
+  EXPECT_EQ(captures(file), begin +
+                                "nothing was measured: it holds neither a range nor a free way; the first scan is to "
+                                "show where the object stands, unless map.region gives its box: six numbers [m]");
+  folder_.write("capture.npy", "no table");
+  EXPECT_THAT(captures(file), AllOf(StartsWith(begin), Not(HasSubstr("map.region"))));
+  EXPECT_THAT(captures((folder_ / "none.npy").string()), AllOf(HasSubstr("none.npy"), Not(HasSubstr("map.region"))));
 }
 
 TEST_F(DriverSetup, MadeUpErrorsOfARobotAreRefused) {
