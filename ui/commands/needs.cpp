@@ -20,6 +20,18 @@ std::string needs_rest(const CommandState& t) {
   return t.progress.busy ? "wait until what runs is done, or cancel it" : "";
 }
 
+namespace {
+
+std::string maps_set_aside(std::size_t maps) {
+  const bool is_one = maps == 1;
+  return fmt::format(
+      "The Gibbs {}, which {} set aside, {} kept nowhere: undo, or redo, brings {} back, to be exported.",
+      is_one ? "map of another scan" : fmt::format("maps of {} other scans", maps), is_one ? "was" : "were",
+      is_one ? "is" : "are", is_one ? "it" : "them");
+}
+
+}  // namespace
+
 std::string what_is_lost(const CommandState& t, bool undoable) {
   const SessionSnapshot& s = t.session;
   std::string lost;
@@ -30,6 +42,7 @@ std::string what_is_lost(const CommandState& t, bool undoable) {
         "The Gibbs map of {} is not kept with the session: refining (G) makes it again. To have it as a "
         "file, cancel{} and export the scan (Ctrl+E).",
         counted(s.gibbs_lost, "view"), s.gibbs ? "" : ", go to its view");
+  if (!undoable && s.gibbs_lost_aside > 0) lost += (lost.empty() ? "" : " ") + maps_set_aside(s.gibbs_lost_aside);
   const std::size_t views = s.views_on_branches();
   if (!undoable && !s.kept && views > 0)
     lost += fmt::format("{}{} kept nowhere: Export keeps the scan.", lost.empty() ? "" : " ",

@@ -84,6 +84,16 @@ std::optional<HistoryEntry> ScanHistory::left_in(const std::filesystem::path& fo
   return std::nullopt;
 }
 
+std::size_t ScanHistory::gibbs_maps_in_memory_alone() const {
+  std::set<const StepTree*> trees;
+  for (const Entries* entries : {&redo_, &undo_})
+    for (const HistoryEntry& entry : *entries) {
+      const bool is_lost = entry.tree->refined.is_in_memory_alone() && !entry.session->planner().needs().posterior;
+      if (is_lost && entry.tree != tree_) trees.insert(entry.tree.get());
+    }
+  return trees.size();
+}
+
 void ScanHistory::bring_back_maps(const Session& session, const StepTree& tree, std::uint32_t number,
                                   const Stand& stand, const Progress& progress, const std::stop_token& stop) {
   if (stand.state->has_maps) return;

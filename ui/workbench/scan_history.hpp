@@ -66,6 +66,10 @@ class ScanHistory {
   std::optional<HistoryEntry> left_in(const std::filesystem::path& folder, const Progress& progress,
                                       const std::stop_token& stop) const;
 
+  /// Gibbs maps of sessions that were set aside, in no folder, and not those of a planner, which makes its own anew:
+  /// they end with the program.
+  std::size_t gibbs_maps_in_memory_alone() const;
+
   /// The states lose their maps, the oldest first, until they take no more; `now` keeps its own.
   void keep_within(std::size_t limit, const ScanState* now);
   /// What the maps of all states take, what they share counted once [bytes].

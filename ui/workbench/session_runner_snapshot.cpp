@@ -48,8 +48,8 @@ void SessionRunner::publish(SessionSnapshot snapshot) {
   snapshot.kept = kept_ && kept_->folder();
   snapshot.keeping_fails = kept_ && kept_->fails();
   // Also where the session stands elsewhere: the map comes back with its views.
-  const bool is_in_memory_alone = tree_ && tree_->refined.map && tree_->refined.map != tree_->refined.written;
-  snapshot.gibbs_lost = is_in_memory_alone ? tree_->refined.map->views : 0;
+  snapshot.gibbs_lost = tree_ && tree_->refined.is_in_memory_alone() ? tree_->refined.map->views : 0;
+  snapshot.gibbs_lost_aside = history_.gibbs_maps_in_memory_alone();
   snapshot.cameras =
       std::make_shared<const std::vector<CameraBookmark>>(kept_ ? kept_->cameras() : std::vector<CameraBookmark>());
   snapshot.live = scanner_ != nullptr;

@@ -119,6 +119,7 @@ struct SessionSnapshot {
   bool kept = false;                           ///< what was taken is in a folder
   bool keeping_fails = false;                  ///< it was to be, and is in memory alone
   std::size_t gibbs_lost = 0;                  ///< views of this scan's Gibbs map that is in no folder; 0: none is
+  std::size_t gibbs_lost_aside = 0;            ///< Gibbs maps of scans that were set aside, which are in none, either
   std::shared_ptr<const std::vector<CameraBookmark>> cameras;  ///< to look at the scene from; may be null
 
   bool loaded() const { return session > 0; }

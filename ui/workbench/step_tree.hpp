@@ -29,6 +29,8 @@ struct RefinedMap {
   std::shared_ptr<const GibbsMap> map;             ///< null: none was
   std::vector<std::shared_ptr<const Scan>> scans;  ///< that the session had then
   std::shared_ptr<const GibbsMap> written;         ///< the last one that was exported; null: none was
+
+  bool is_in_memory_alone() const { return map && map != written; }
 };
 
 /// Every step that a session has taken, those that it went back from among them, by number; 0 is where nothing was

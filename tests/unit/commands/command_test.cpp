@@ -15,6 +15,7 @@
 namespace nextview {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -288,6 +289,17 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   session.gibbs_lost = 0;
   EXPECT_EQ(question(), "");
   EXPECT_EQ(of_opening("sphere"), "") << "undo brings all of it back";
+  session.gibbs_lost_aside = 1;
+  EXPECT_EQ(question(),
+            "The Gibbs map of another scan, which was set aside, is kept nowhere: undo, or redo, brings it back, to be "
+            "exported.");
+  EXPECT_EQ(of_opening("sphere"), "") << "it still does";
+  session.gibbs_lost_aside = 2;
+  session.gibbs_lost = 3;
+  EXPECT_THAT(question(),
+              AllOf(StartsWith("The Gibbs map of 3 views is not kept"),
+                    HasSubstr("(Ctrl+E). The Gibbs maps of 2 other scans, which were set aside, are kept")));
+  session.gibbs_lost = session.gibbs_lost_aside = 0;
   session.live = true;
   EXPECT_THAT(of_opening("sphere"), StartsWith("The scanner is left, and what it does is stopped"));
   EXPECT_EQ(of_opening("/no/such/part.stl"), "");

@@ -68,9 +68,11 @@ TEST_F(SessionRunnerTest, TheGibbsMapOfAScanThatWasStartedOverComesBackWithIt) {
   runner_.load(small_scan(), job_control());
   EXPECT_EQ(now().gibbs, nullptr);
   EXPECT_EQ(now().gibbs_lost, 0u);
+  EXPECT_EQ(now().gibbs_lost_aside, 1u) << "it ends with the program all the same";
   runner_.undo(job_control());
   EXPECT_EQ(now().gibbs, map) << "what may be lost is there to be exported";
   EXPECT_EQ(now().gibbs_lost, 2u);
+  EXPECT_EQ(now().gibbs_lost_aside, 0u) << "it counts once";
   runner_.write(folder_ / "export", job_control());
   EXPECT_EQ(now().gibbs_lost, 0u);
   runner_.refine(2, 12, job_control());
@@ -86,6 +88,7 @@ TEST_F(SessionRunnerTest, TheGibbsMapComesBackThoughAnotherObjectWasRefinedMeanw
   runner_.open("box", job_control());
   steps(1);
   runner_.refine(2, 8, job_control());
+  EXPECT_EQ(now().gibbs_lost_aside, 0u) << "that of the sphere is in a folder";
   const auto of_box = now().gibbs;
   ASSERT_NE(of_box, of_sphere);
   runner_.undo(job_control());
@@ -93,6 +96,7 @@ TEST_F(SessionRunnerTest, TheGibbsMapComesBackThoughAnotherObjectWasRefinedMeanw
   EXPECT_EQ(now().object_name, "sphere");
   EXPECT_EQ(now().gibbs, of_sphere);
   EXPECT_EQ(now().gibbs_lost, 0u) << "it was exported";
+  EXPECT_EQ(now().gibbs_lost_aside, 1u) << "that of the box was not, to which redo leads";
   runner_.redo(job_control());
   EXPECT_EQ(now().object_name, "box");
   EXPECT_EQ(now().gibbs, nullptr) << "its view is not there yet";
