@@ -39,6 +39,11 @@ class User {
     }
   }
 
+  /// Looks for as long as it takes to read a question; Enter answers none before.
+  void read_question() {
+    for (int i = 0; i < 30; ++i) interface_.draw(frame);
+  }
+
   void move(double x, double y) { interface_.push(input::Move{x, y}); }
   void press(PointerButton button = PointerButton::left) { interface_.push(input::Button{button, true}); }
   void release(PointerButton button = PointerButton::left) { interface_.push(input::Button{button, false}); }

@@ -89,6 +89,7 @@ TEST(OfferedSession, IsNoPartOfTheScriptIfItDoesNotOpen) {
   while (user.worker().progress().question.empty() || user.window().seconds_to_next_frame() == 0.0)
     user.window().draw(1.0 / 60);
   const std::vector<std::string> before = user.window().state().history.lines;
+  user.read_question();
   user.type(Key::enter);
   user.wait();
   EXPECT_NE(user.session().message, "");

@@ -46,8 +46,10 @@ TEST(Window, PlaysUntilTheScanIsFinished) {
   user.type(key('S'));
   user.wait_for_news();
   EXPECT_EQ(user.session().records.size(), 5u) << "nothing is done behind a question";
+  user.read_question();
   user.type(Key::enter);
   user.wait_for_news();
+  EXPECT_EQ(user.window().question(), "");
   EXPECT_EQ(user.session().records.size(), 5u) << "Enter alone loses nothing";
   user.type(key('R'));
   user.wait_for_news();

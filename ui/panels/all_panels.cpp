@@ -105,9 +105,11 @@ bool press_what_has_the_ring() {
   return true;
 }
 
-void obey_answers(const PanelContext& context) {
+/// Escape gives the cautious answer at once, Enter another only to who can have read the question.
+void obey_answers(const PanelContext& context, bool was_seen) {
   const std::vector<std::string>& answers = context.progress.answers;
   if (pressed(Key::escape)) return context.post(answer_to(context.progress, answers.back()));
+  if (!was_seen) return;
   const bool is_in_it = ImGui::GetCurrentContext()->NavWindow == ImGui::FindWindowByName("Question");
   if (is_in_it && press_what_has_the_ring()) return;
   context.post(answer_to(context.progress, answers[context.progress.usual_answer()]));
@@ -163,7 +165,21 @@ void AllPanels::show_no_focus_after_clicks() {
   focus_was_shown_ = imgui.IO.NavVisible;
 }
 
+/// Whether it is there for longer than a double press takes: what comes sooner was meant for the question before it.
+bool AllPanels::question_was_seen(const PanelContext& context) {
+  constexpr double moment = 0.3;  // [s]
+  std::pair asked(context.progress.question_number, context.progress.question);
+  if (asked != asked_) {
+    asked_ = std::move(asked);
+    asked_since_.reset();  // it is drawn in this frame, however long that takes
+    return false;
+  }
+  if (!asked_since_) asked_since_ = ImGui::GetTime();
+  return ImGui::GetTime() - *asked_since_ >= moment;
+}
+
 void AllPanels::obey_keys(const PanelContext& context) {
+  const bool was_seen = question_was_seen(context);
   show_no_focus_after_clicks();
   come_back_from_front(context);
   const ImGuiIO& io = ImGui::GetIO();
@@ -176,7 +192,7 @@ void AllPanels::obey_keys(const PanelContext& context) {
     imgui.NavDisableMouseHover = true;  // until the pointer moves: a menu within a menu would open again beneath it
   } else if (!context.progress.question.empty() && !is_covered &&
              (pressed(Key::escape) || (pressed(Key::enter) && !io.WantTextInput))) {
-    obey_answers(context);
+    obey_answers(context, was_seen);
   } else if (!context.window.file_for.empty()) {
     if (pressed(Key::escape)) context.post(command::file_dialog());
   } else if (context.window.palette_open) {

@@ -1,7 +1,10 @@
 #pragma once
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ui/panels/file_dialog.hpp"
@@ -32,6 +35,7 @@ class AllPanels {
   void begin_among_controls(const PanelContext& context);
   void show_no_focus_after_clicks();
   void come_back_from_front(const PanelContext& context);
+  bool question_was_seen(const PanelContext& context);
 
   std::map<std::string, std::unique_ptr<PanelContent>> contents_;  ///< by the panel's name
   Palette palette_;
@@ -45,6 +49,8 @@ class AllPanels {
   bool was_covered_ = false;      ///< likewise, by what has the keyboard in the panels' place
   ImGuiID left_at_ = 0;           ///< the window that had the keyboard before that
   bool left_with_ring_ = false;
+  std::pair<std::uint64_t, std::string> asked_;  ///< the number and the text of the question of the last frame
+  std::optional<double> asked_since_;            ///< when it was in sight, in ImGui's time [s]; none: it is new
 };
 
 }  // namespace nextview

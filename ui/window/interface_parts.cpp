@@ -26,7 +26,8 @@ void Interface::Parts::take_news() {
   News now = latest();
   if (now.snapshot != news.snapshot || now.inspection != news.inspection || now.log != news.log ||
       now.surface != news.surface || now.surface_progress != news.surface_progress ||
-      now.progress.busy != news.progress.busy || now.progress.question != news.progress.question)
+      now.progress.busy != news.progress.busy || now.progress.question != news.progress.question ||
+      now.progress.question_number != news.progress.question_number)
     settling = frames_to_settle;
   // The panels tell of a new map first, and the scene a frame later: both in one would hold up the hand.
   const bool new_map = now.snapshot->session == news.snapshot->session && now.snapshot->map != news.snapshot->map;

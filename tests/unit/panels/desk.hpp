@@ -50,6 +50,11 @@ class Desk {
     return all;
   }
 
+  /// Frames for as long as it takes to read a question; Enter answers none before.
+  void look() {
+    for (int i = 0; i < 30; ++i) frame();
+  }
+
   void move(double x, double y) { queue_.push(input::Move{x, y}); }
   void click(double x, double y) {
     move(x, y);

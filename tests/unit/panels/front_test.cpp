@@ -82,6 +82,7 @@ TEST(Front, AQuestionIsAnsweredFirst) {
     if (command.menu != "Scan" || command.name == "answer" || command.name == "cancel") continue;
     EXPECT_FALSE(command.available(desk.state())) << command.name;
   }
+  desk.look();
   desk.type(Key::enter);
   EXPECT_EQ(names(desk.frames()), std::vector<std::string>{"answer \"Start over\""});
   desk.progress.costs = true;
@@ -97,7 +98,7 @@ TEST(Front, EnterPressesTheAnswerThatHasTheRing) {
   desk.progress.question = "Leave without keeping?";
   desk.progress.answers = {"Quit", "Export", "Cancel"};
   desk.progress.costs = true;
-  desk.frames();
+  desk.look();
   for (const auto& [key, does] : {std::pair{Key::tab, "answer Quit"}, {Key::right, "answer Export"}}) {
     desk.type(key);
     desk.frames();
@@ -144,6 +145,26 @@ TEST(Front, TheSecondClickOfADoubleClickAnswersNoOtherQuestion) {
   EXPECT_THAT(click(), IsEmpty());
   for (int frame = 0; frame < 40; ++frame) desk.frame();
   EXPECT_EQ(click(), std::vector<std::string>{"answer Move"}) << "it was seen by then";
+}
+
+/// Nor has anybody read it who presses Enter twice.
+TEST(Front, EnterAnswersAQuestionThatWasInSightForAMoment) {
+  Desk desk;
+  desk.progress.answers = {"Move", "Refuse"};
+  const auto press = [&](Key key) {
+    desk.type(key);
+    return names(desk.frames());
+  };
+  for (const auto& [number, question] : {std::pair{1, "Go there?"}, {2, "Go there?"}, {2, "And there?"}}) {
+    desk.progress.question = question;
+    desk.progress.question_number = std::uint64_t(number);
+    EXPECT_THAT(press(Key::enter), IsEmpty()) << "nobody saw it";
+    EXPECT_THAT(press(Key::enter), IsEmpty()) << "nor read it";
+    desk.look();
+    EXPECT_EQ(press(Key::enter), std::vector<std::string>{"answer Move"});
+  }
+  desk.progress.question_number = 3;
+  EXPECT_EQ(press(Key::escape), std::vector<std::string>{"answer Refuse"}) << "that costs nothing";
 }
 
 /// The palette lies over the question: whoever closes it has not answered.
@@ -253,7 +274,7 @@ TEST(Front, AfterAQuestionThatWasAnsweredByKeysSpaceSteps) {
   desk.frames();
   desk.progress.question = "Take it?";
   desk.progress.answers = {"Take it", "Reject it"};
-  desk.frames();
+  desk.look();
   desk.type(Key::tab);
   desk.frames();
   desk.type(Key::enter);
