@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdint>
+#include <stdexcept>
 
 #include "core/cloud/ply_header.hpp"
 #include "core/file/atomic_file.hpp"
@@ -14,6 +16,8 @@
 #include "core/file/own_folder.hpp"
 #include "core/file/printable.hpp"
 #include "core/file/read_file.hpp"
+#include "core/mesh/file_claims.hpp"
+#include "core/mesh/mesh_types.hpp"
 #include "core/progress/stopped.hpp"
 #include "core/recording/cloud_file.hpp"
 #include "core/surface/cloud_surface.hpp"
@@ -92,6 +96,18 @@ bool is_cloud(const fs::path& file) {
 PlacedMesh load_object_mesh(const fs::path& file, const MeshFileOptions& options, const std::stop_token& stop) {
   if (is_cloud(file)) return load_cloud(file, options, stop);
   return file.extension() == ".gz" ? load_unpacked(file, options, stop) : load_placed_mesh(file, options, stop);
+}
+
+void require_whole_object(const fs::path& file) {
+  constexpr std::uintmax_t most = 32u << 20;  // [bytes]: a text of so many takes a third of a second
+  open_regular_file(file);
+  const std::string extension = lower_case_extension(file);
+  if (extension == ".gz" || fs::file_size(file) > most) return;
+  if (is_cloud(file)) return static_cast<void>(read_cloud_file(file));
+  if (!not_a_mesh_type(extension).empty()) return;  // a map, scans
+  const std::string bytes = read_file(file, most);
+  const std::string reason = bytes.empty() ? "is empty" : false_claim(extension, bytes);
+  if (!reason.empty()) throw std::runtime_error(fmt::format("{}: {}", printable(file.string()), reason));
 }
 
 std::string cloud_note(const PlacedMesh& object) {

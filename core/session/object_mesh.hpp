@@ -16,6 +16,12 @@ bool is_cloud(const std::filesystem::path& file);
 PlacedMesh load_object_mesh(const std::filesystem::path& file, const MeshFileOptions& options = {},
                             const std::stop_token& stop = {});
 
+/// Refuses a file that load_object_mesh would refuse, in the same words, as far as a moment tells: it is not there, or
+/// less than what it says of itself. Those over 32 MiB, and compressed ones, are left to who reads them: somebody
+/// waits.
+/// @throws std::runtime_error with one line that names the file and the reason
+void require_whole_object(const std::filesystem::path& file);
+
 /// For people, that an object is a cloud; empty if it is not.
 std::string cloud_note(const PlacedMesh& object);
 

@@ -105,6 +105,23 @@ TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
   EXPECT_EQ(user.session().records.size(), 2u);
 }
 
+/// Who says that the Gibbs map may go for a file is not to hear then that the file is broken.
+TEST_F(WindowFiles, AMeshThatIsCutOffAsksNothingAndLosesNothing) {
+  User user(small_scan());
+  user.run("step\nrefine 2 8\n");
+  write_file(folder_ / "cut.stl", "solid cut\n");
+  user.drop(file("cut.stl"));
+  user.wait();
+  EXPECT_EQ(user.window().question(), "");
+  EXPECT_NE(user.session().message.find("cut.stl: is truncated"), std::string::npos) << user.session().message;
+  EXPECT_EQ(user.session().records.size(), 1u);
+  EXPECT_EQ(user.session().gibbs_lost, 1u) << "it is still there";
+  user.drop("box");
+  user.wait();
+  EXPECT_NE(user.window().question(), "");
+  EXPECT_EQ(user.session().object_name, "sphere");
+}
+
 TEST_F(WindowFiles, AMapAloneFillsTheSceneAndHasNoFirstSteps) {
   User user(small_scan());
   user.window().show_guide(true);

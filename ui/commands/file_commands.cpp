@@ -10,11 +10,11 @@
 #include "core/config/known_objects.hpp"
 #include "core/config/opened_input.hpp"
 #include "core/file/atomic_file.hpp"
-#include "core/file/read_file.hpp"
 #include "core/setting/quantity.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/demo_file.hpp"
 #include "ui/commands/needs.hpp"
+#include "ui/commands/openable.hpp"
 #include "ui/commands/recording_commands.hpp"
 #include "ui/commands/window_commands.hpp"
 
@@ -132,28 +132,6 @@ CommandQuestion ask_before_restart(const CommandState& t, const std::vector<std:
   return restart_question(t, change_text(wanted));
 }
 
-/// By its name: only the worker reads what is in it.
-bool may_be_opened(const std::filesystem::path& file) {
-  if (std::ranges::count(known_objects(), file.string()) > 0) return true;
-  std::error_code ignored;
-  return std::filesystem::is_directory(file, ignored) || (is_there(file) && not_an_input(file).empty());
-}
-
-/// @throws std::exception that says why they cannot be taken: they are wrong, or what they scan is not there.
-void require_settings(const SessionSnapshot& session, const std::filesystem::path& file) {
-  const Configuration wanted = with_next_input(session.configuration, file);
-  wanted.validate();
-  if (!session.live && wanted.recorded.folder.empty()) resolve_object(wanted);
-}
-
-/// Likewise of all that is opened, as far as its name tells.
-void require_openable(const SessionSnapshot& session, const std::filesystem::path& file) {
-  if (carries_settings(file)) return require_settings(session, file);
-  if (may_be_opened(file)) return;
-  const std::string reason = not_an_input(resolve_object(file.string()));
-  if (!reason.empty()) throw std::invalid_argument(fmt::format("{}: {}", file.string(), reason));
-}
-
 /// A file that is dropped by accident stops a robot, too.
 CommandQuestion with_scanner(CommandQuestion question, const CommandState& t) {
   if (t.session.live)
@@ -167,16 +145,18 @@ CommandQuestion with_scanner(CommandQuestion question, const CommandState& t) {
 CommandQuestion ask_before_opening(const CommandState& t, const std::vector<std::string>& values) {
   const std::filesystem::path file = values.at(0);
   if (is_demo_file(file)) return command::play_demo.question(t, values);
-  if (carries_settings(file)) {
-    try {
-      require_settings(t.session, file);
-      return with_scanner(restart_question(t, fmt::format("Taking the settings of {}", file.filename().string())), t);
-    } catch (const std::exception&) {
-      return {};  // it will be refused, and nothing is lost
-    }
+  const bool is_settings = carries_settings(file);
+  const CommandQuestion question =
+      with_scanner(is_settings ? restart_question(t, fmt::format("Taking the settings of {}", file.filename().string()))
+                               : CommandQuestion{what_is_lost(t, true), "Open"},
+                   t);
+  if (question.text.empty()) return question;  // and nothing is looked at: only the worker reads
+  try {
+    require_openable(t.session, file);
+    return question;
+  } catch (const std::exception&) {
+    return {};  // it will be refused, and nothing is lost
   }
-  if (!may_be_opened(file)) return {};
-  return with_scanner({what_is_lost(t, true), "Open"}, t);
 }
 
 CommandQuestion ask_before_quitting(const CommandState& t, const std::vector<std::string>&) {

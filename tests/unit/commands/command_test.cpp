@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "tests/unit/mesh/temporary_folder.hpp"
 #include "ui/commands/command_list.hpp"
 #include "ui/commands/command_target.hpp"
 #include "ui/commands/file_commands.hpp"
@@ -283,6 +284,13 @@ TEST(Commands, WhoseGibbsMapIsKeptNowhereIsToldWhatKeepsIt) {
   EXPECT_NE(of_opening("sphere"), "");
   EXPECT_EQ(of_opening("/no/such/part.stl"), "") << "it will be refused, and nothing is lost";
   EXPECT_EQ(of_opening("/dev/null"), "") << "nor is this an object";
+  const TemporaryFolder folder;
+  const std::string cut = folder.write("cut.stl", "solid cut\n").string();
+  const std::string whole = folder.write("whole.stl", "solid whole\nendsolid whole\n").string();
+  const std::string settings = folder.write("cut.toml", "object.file = '" + cut + "'\n").string();
+  EXPECT_EQ(of_opening(cut.c_str()), "") << "nor this, as is seen before it is read for good";
+  EXPECT_EQ(of_opening(settings.c_str()), "") << "nor what these settings scan";
+  EXPECT_NE(of_opening(whole.c_str()), "");
   const auto of_scanner = [&](const Command& c) { return c.question({session, {}, {}}, {"driver"}).text; };
   EXPECT_NE(of_scanner(command::connect), "");
   EXPECT_NE(of_scanner(command::disconnect), "");
@@ -315,6 +323,9 @@ TEST(Commands, WhatIsRefusedEndsNothingThatRuns) {
   EXPECT_THROW(execute(make_call("open", {"/no/such/part.stl"}), target), std::exception);
   EXPECT_THROW(execute(make_call("open", {"/no/such/settings.toml"}), target), std::exception);
   EXPECT_THROW(execute(make_call("open", {"/dev/null"}), target), std::exception) << "nor is this an object";
+  const TemporaryFolder folder;
+  const std::string cut = folder.write("cut.stl", "solid cut\n").string();
+  EXPECT_THROW(execute(make_call("open", {cut}), target), std::exception) << "it is truncated";
   EXPECT_EQ(worker.posted(), 0u);
 }
 
