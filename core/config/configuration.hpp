@@ -80,6 +80,8 @@ struct EvaluationConfig {
   EvaluationSamples samples = EvaluationSamples::surface;
   int surface_samples = 50'000;
   bool any_pose = false;  ///< coverage of what any pose could see too; always so with adaptive views
+
+  bool operator==(const EvaluationConfig&) const = default;
 };
 
 /// What the window keeps to go back to. It decides nothing of a scan.

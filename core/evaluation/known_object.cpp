@@ -84,8 +84,14 @@ std::vector<std::uint32_t> KnownObject::samples_seen(const Pose& T_world_camera,
   return nextview::visible_samples(surface(), *scene_, camera_, T_world_camera, all_samples_, any_slant, stop);
 }
 
-std::vector<std::uint8_t> KnownObject::seen_from_any_pose(const Progress& progress, const std::stop_token& stop) const {
-  return nextview::seen_from_any_pose(surface(), *scene_, camera_, nothing_seen_.coverage.d_reg(), progress, stop);
+const std::vector<std::uint8_t>& KnownObject::seen_from_any_pose(const Progress& progress,
+                                                                 const std::stop_token& stop) const {
+  const std::lock_guard lock(finding_);
+  if (!any_pose_)
+    any_pose_ = tbb::this_task_arena::isolate([&] {  // as in sight()
+      return nextview::seen_from_any_pose(surface(), *scene_, camera_, nothing_seen_.coverage.d_reg(), progress, stop);
+    });
+  return *any_pose_;
 }
 
 void KnownObject::add_view(EvaluationState& state, const Pose& T_world_camera, const PointCloud& points,

@@ -47,9 +47,10 @@ class KnownObject {
   /// @throws Stopped
   std::vector<std::uint32_t> samples_seen(const Pose& T_world_camera, const std::stop_token& stop = {}) const;
 
-  /// One a sample, 1: a camera could see it from some pose, whatever the candidates are. Takes a second or two.
-  /// @throws Stopped
-  std::vector<std::uint8_t> seen_from_any_pose(const Progress& progress = {}, const std::stop_token& stop = {}) const;
+  /// One a sample, 1: a camera could see it from some pose, whatever the candidates are. Found when it is asked for
+  /// first, which takes a second or two; from any thread. @throws Stopped; then the next who asks finds it.
+  const std::vector<std::uint8_t>& seen_from_any_pose(const Progress& progress = {},
+                                                      const std::stop_token& stop = {}) const;
 
   /// Before the first view.
   EvaluationState nothing_seen() const { return nothing_seen_; }
@@ -83,8 +84,9 @@ class KnownObject {
   GroundTruth truth_;
   EvaluationState nothing_seen_;
   mutable std::mutex finding_;
-  mutable std::optional<CandidateSight> sight_;  ///< once it was asked for; so is the next
-  mutable std::vector<std::uint8_t> visible_;    ///< 1: some candidate sees the sample
+  mutable std::optional<CandidateSight> sight_;                ///< once it was asked for; so is the next
+  mutable std::vector<std::uint8_t> visible_;                  ///< 1: some candidate sees the sample
+  mutable std::optional<std::vector<std::uint8_t>> any_pose_;  ///< 1: some pose does
 };
 
 }  // namespace nextview

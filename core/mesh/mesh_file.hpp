@@ -16,6 +16,8 @@ struct MeshFileOptions {
   bool centred = true;  ///< the bounding box has its centre in the origin; else the file's origin stays where it is
   bool ground = false;  ///< PlacedMesh::on_ground
   std::uintmax_t largest_file = 1u << 30;  ///< of all files of a mesh together; beyond it is refused [bytes]
+
+  bool operator==(const MeshFileOptions&) const = default;
 };
 
 /// How load_mesh moves, turns and scales a file's coordinates: what else is known in them, such as openings, goes the

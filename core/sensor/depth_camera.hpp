@@ -31,6 +31,8 @@ struct DepthCameraConfig {
   void validate() const;
   /// @throws std::invalid_argument if `intrinsics` are none
   PinholeCamera camera() const;
+
+  bool operator==(const DepthCameraConfig&) const = default;
 };
 /// Their bounds are declared here and nowhere else; the settings of other configurations are likewise.
 std::vector<Setting> settings(DepthCameraConfig& config);

@@ -13,6 +13,7 @@
 #include "core/session/object_mesh.hpp"
 #include "core/session/recording_setup.hpp"
 #include "core/session/session_parts.hpp"
+#include "core/session/shared_objects.hpp"
 #include "core/session/start_map.hpp"
 #include "core/source/inaccurate_source.hpp"
 
@@ -27,13 +28,15 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
   source_ = std::move(parts.source);
   name_ = std::move(parts.name);
   const bool map_alone = !source_ && c.recorded.folder.empty() && is_map(c.object.file);
+  SharedObjects own;
+  SharedObjects& objects = parts.objects ? *parts.objects : own;
   std::shared_ptr<const SimulatedWorld> world;
   if (!source_ && !c.recorded.folder.empty())
     world = replay(progress, stop);
   else if (map_alone)
     open_map();
   else if (!source_ || c.evaluation.enabled)
-    world = simulate(stop);
+    world = simulate(objects, stop);
   else
     c = affordable(std::move(c));
   if (!setup_.start_map && !c.map.start.empty())
@@ -55,7 +58,7 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
     const auto notice = [this](const std::string& text) { views_notes_.push_back(text); };
     setup_.candidates = configured_candidates(c, setup_.source, notice);
   }
-  if (world && c.evaluation.enabled) compare_with(world, progress, stop);
+  if (world && c.evaluation.enabled) compare_with(world, objects, progress, stop);
   ScanState nothing = nothing_scanned(setup_, robot_->pose());
   const auto voxels = double(nothing.known.map.voxels().size());
   setup_.start_entropy = setup_.start_map ? map_entropy(nothing.known.map.voxels()) : MapEntropy{voxels, voxels};
@@ -64,13 +67,13 @@ Session::Session(Configuration configuration, SessionParts parts, const Progress
 }
 
 /// The object of the configuration, which becomes the source if there is no other.
-std::shared_ptr<const SimulatedWorld> Session::simulate(const std::stop_token& stop) {
+std::shared_ptr<const SimulatedWorld> Session::simulate(SharedObjects& objects, const std::stop_token& stop) {
   Configuration& c = setup_.configuration;
-  ConfiguredObject object = load_object(c, stop);
+  ConfiguredObject object = objects.load(c, stop);
   if (name_.empty()) name_ = object_name(object.file);
   object_file_ = std::move(object.file);
   object_ = std::move(object.placed);
-  auto world = std::make_shared<const SimulatedWorld>(object_, c.sensor, stop);
+  auto world = objects.world(object_, c.sensor, stop);
   if (!source_) source_ = std::make_unique<SimulatedSource>(world, c.seed);
   if (!c.robot.exact()) source_ = std::make_unique<InaccurateSource>(std::move(source_), c.robot, c.seed);
   return world;
@@ -105,14 +108,11 @@ void Session::open_map() {
   source_ = std::make_unique<RecordedSource>(std::move(nothing));
 }
 
-void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
-                           const std::stop_token& stop) {
+void Session::compare_with(const std::shared_ptr<const SimulatedWorld>& world, SharedObjects& objects,
+                           const Progress& progress, const std::stop_token& stop) {
   const Configuration& c = setup_.configuration;
-  setup_.truth =
-      std::make_shared<KnownObject>(object_->surroundings(), evaluation_samples(c, object_->mesh),
-                                    std::shared_ptr<const MeshRayCaster>(world, &world->scene), world->camera,
-                                    poses_of(setup_.candidates->candidates(nothing_known(c, setup_.region, {}))),
-                                    setup_.region, c.evaluation.d_reg, stop);
+  const auto candidates = setup_.candidates->candidates(nothing_known(c, setup_.region, {}));
+  setup_.truth = objects.known(world, c, setup_.region, poses_of(candidates), stop);
   if (c.evaluation.any_pose || c.views.layout == ViewLayout::adaptive)
     setup_.any_pose = setup_.truth->seen_from_any_pose(progress, stop);
 }

@@ -13,6 +13,8 @@
 
 namespace nextview {
 
+class SharedObjects;
+
 /// A scan that lies too far off those before it was not taken (RegistrationConfig). Another view may do.
 struct ScanRejected : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -26,6 +28,8 @@ struct SessionParts {
   std::unique_ptr<Planner> planner = {};
   std::unique_ptr<CandidateGenerator> candidates = {};
   std::string name = {};  ///< for people; empty: the object's
+  /// What it shares with other sessions of its object; null: nothing. Only while it is made.
+  SharedObjects* objects = nullptr;
 };
 
 /// A scan of one object: Algorithm 2, step by step, with the robot and the source that it is taken with. Not safe to
@@ -147,11 +151,11 @@ class Session {
   std::optional<ScanState> next_state(const Progress& progress, const std::stop_token& stop, const Accept& accept);
   bool take_view(const Progress& progress, const std::stop_token& stop, const Accept& accept);
   Verdict verdict(const Acquired& acquired) const;
-  std::shared_ptr<const SimulatedWorld> simulate(const std::stop_token& stop);
+  std::shared_ptr<const SimulatedWorld> simulate(SharedObjects& objects, const std::stop_token& stop);
   std::shared_ptr<const SimulatedWorld> replay(const Progress& progress, const std::stop_token& stop);
   void open_map();
-  void compare_with(const std::shared_ptr<const SimulatedWorld>& world, const Progress& progress,
-                    const std::stop_token& stop);
+  void compare_with(const std::shared_ptr<const SimulatedWorld>& world, SharedObjects& objects,
+                    const Progress& progress, const std::stop_token& stop);
   void adopt(ScanState state);
   void require_first_step() const;
   void follow_views(ScanSetup& setup, const std::stop_token& stop) const;

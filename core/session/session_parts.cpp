@@ -142,20 +142,29 @@ ProjectionPlacement projection_placement(const Configuration& c, const PlacedMes
   return {placed.centre / ratio, placed.scale * ratio, placed.up};
 }
 
-ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
+ObjectFile configured_object_file(const Configuration& c) {
   if (!c.driver.name.empty())
     throw std::invalid_argument(
         c.as_given(fmt::format("driver.name: this scan was taken by the scanner {}, which alone can repeat it: give "
                                "--driver, or --resume its folder",
                                c.driver.name)));
   const std::filesystem::path file = resolve_object(c);
-  ConfiguredObject object{file, std::make_shared<PlacedMesh>(load_object_mesh(file, placement(c.object, file), stop))};
+  return {file, placement(c.object, file)};
+}
+
+void fit_to_object(Configuration& c, const ConfiguredObject& object) {
   const Eigen::AlignedBox3d box = object.placed->mesh.bounding_box();
   fit_lengths(c, box.sizes().maxCoeff());
   fit_region(c, box);
   c = affordable(validated(std::move(c)));
   c.views.projections = projection_placement(c, *object.placed);
-  require_within_region(object.placed->mesh, c, file);
+  require_within_region(object.placed->mesh, c, object.file);
+}
+
+ConfiguredObject load_object(Configuration& c, const std::stop_token& stop) {
+  const ObjectFile file = configured_object_file(c);
+  ConfiguredObject object{file.file, std::make_shared<PlacedMesh>(load_object_mesh(file.file, file.options, stop))};
+  fit_to_object(c, object);
   return object;
 }
 

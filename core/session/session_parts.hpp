@@ -24,6 +24,16 @@ std::string not_enough_memory(const Configuration& configuration);
 /// What the views that the program lays out look at: the middle of the region of interest.
 Vector3 view_target(const Configuration& configuration);
 Pose configured_start_view(const Configuration& configuration);
+/// The file of an object, and how its mesh is placed.
+struct ObjectFile {
+  std::filesystem::path file;
+  MeshFileOptions options;
+
+  bool operator==(const ObjectFile&) const = default;
+};
+/// Those of the object that a configuration names. @throws std::invalid_argument, std::runtime_error naming the file
+/// or the setting
+ObjectFile configured_object_file(const Configuration& configuration);
 /// The object that a configuration names.
 struct ConfiguredObject {
   std::filesystem::path file;
@@ -32,8 +42,11 @@ struct ConfiguredObject {
 /// How the coordinates of projection matrices (views.file) become the world's: as those of the object's file did.
 /// @throws std::invalid_argument if views.unit is set and nothing says the object's
 ProjectionPlacement projection_placement(const Configuration& configuration, const PlacedMesh& object);
-/// Reads it, fits lengths and region to it (fit_lengths, fit_region), and puts the views of projection matrices where
-/// it is.
+/// Fits lengths and region to an object that was read (fit_lengths, fit_region), and puts the views of projection
+/// matrices where it is.
+/// @throws std::invalid_argument naming the file or the setting; OutOfMemory
+void fit_to_object(Configuration& configuration, const ConfiguredObject& object);
+/// Reads the object and fits the configuration to it.
 /// @throws std::invalid_argument, std::runtime_error naming the file or the setting; OutOfMemory; Stopped
 ConfiguredObject load_object(Configuration& configuration, const std::stop_token& stop = {});
 

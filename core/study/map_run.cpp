@@ -9,6 +9,7 @@
 #include "core/progress/stopwatch.hpp"
 #include "core/session/session_parts.hpp"
 #include "core/study/run_result.hpp"
+#include "core/study/shared_by_runs.hpp"
 #include "core/view/candidate_views.hpp"
 
 namespace nextview {
@@ -106,18 +107,35 @@ void add_chain(const SamplerDiagnostics& d, RunResult& result) {
                100.0 * double(d.changed_voxels.front()[i]) / double(d.observed_voxels));
 }
 
-}  // namespace
-
-RunResult perform_map(const Configuration& configuration, const std::string& kind, RunSeconds& seconds,
-                      const Progress& progress, const std::stop_token& stop) {
+/// What a map is made of, and what it is compared with. Its models alone are the kind of map's; the views, which take
+/// as long as a conventional map, are the same for all kinds.
+const RefinementJob& job_of_run(const Configuration& configuration, SharedByRuns& shared, const Progress& progress,
+                                const std::stop_token& stop) {
   CandidateViewsConfig around = configuration.views;
   around.layout = ViewLayout::fibonacci;
   around.count = configuration.termination.views;
   Configuration fitted = configuration;
-  const ConfiguredObject object = load_object(fitted, stop);  // the views' distance follows from its size
+  const ConfiguredObject object = shared.objects.load(fitted, stop);  // the views' distance follows from its size
   around.radius = fitted.views.radius;
-  const RefinementJob job =
-      refinement_job(fitted, object, candidate_views(around, view_target(fitted)), part(progress, 0.0, 0.3), stop);
+  Configuration seen = fitted;
+  seen.map.model = {};
+  seen.gibbs = {};
+  if (const std::string from = to_toml(seen); from != shared.views_from) {
+    shared.views_from.clear();
+    shared.views = RefinementJob();  // before the next are taken: there may be no room for both
+    shared.views = refinement_job(fitted, object, candidate_views(around, view_target(fitted)), progress, stop);
+    shared.views_from = from;
+  }
+  shared.views.model = fitted.map.model;
+  shared.views.sampler = posterior_sampler_config(fitted);
+  return shared.views;
+}
+
+}  // namespace
+
+RunResult perform_map(const Configuration& configuration, const std::string& kind, SharedByRuns& shared,
+                      RunSeconds& seconds, const Progress& progress, const std::stop_token& stop) {
+  const RefinementJob& job = job_of_run(configuration, shared, part(progress, 0.0, 0.3), stop);
   const auto make = [&] {
     const Stopwatch watch(kind == "gibbs" ? seconds.stages.refine : seconds.stages.insert);
     return map_of(job, kind, part(progress, 0.3, 1.0), stop);

@@ -7,6 +7,7 @@
 #include "core/session/session_folder.hpp"
 #include "core/session/setup_warnings.hpp"
 #include "core/study/run_result.hpp"
+#include "core/study/shared_by_runs.hpp"
 
 namespace nextview {
 namespace {
@@ -83,10 +84,12 @@ void require_hits(const Session& session) {
 
 }  // namespace
 
-RunResult perform_plan(const Configuration& configuration, RunSeconds& seconds,
+RunResult perform_plan(const Configuration& configuration, SharedByRuns& shared, RunSeconds& seconds,
                        const std::optional<std::filesystem::path>& session_folder, const Progress& progress,
                        const std::stop_token& stop) {
-  Session session(configuration, part(progress, 0.0, 0.1), stop);
+  SessionParts parts;
+  parts.objects = &shared.objects;
+  Session session(configuration, std::move(parts), part(progress, 0.0, 0.1), stop);
   std::optional<SessionFolder> folder;
   if (session_folder) folder = SessionFolder::begin(OutputFolder(*session_folder, {}), session);
   take_views(session, folder ? &*folder : nullptr, part(progress, 0.1, 1.0), stop);

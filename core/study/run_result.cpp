@@ -31,15 +31,15 @@ const MeasuredValue* RunResult::find(const std::string& measure, double at) cons
   return found == values->second.end() ? nullptr : &*found;
 }
 
-RunResult perform(const Study& study, const StudyRun& run, RunSeconds& seconds,
+RunResult perform(const Study& study, const StudyRun& run, SharedByRuns& shared, RunSeconds& seconds,
                   const std::optional<std::filesystem::path>& session_folder, const Progress& progress,
                   const std::stop_token& stop) {
   const Stopwatch watch(seconds.total);
   try {
     const Configuration c = configuration_of(study, run);
     c.validate();
-    if (run.part == StudyPart::maps) return perform_map(c, study.map_kind(run), seconds, progress, stop);
-    return perform_plan(c, seconds, session_folder, progress, stop);
+    if (run.part == StudyPart::maps) return perform_map(c, study.map_kind(run), shared, seconds, progress, stop);
+    return perform_plan(c, shared, seconds, session_folder, progress, stop);
   } catch (const Stopped&) {
     throw;
   } catch (const OutOfMemory&) {

@@ -13,6 +13,8 @@
 
 namespace nextview {
 
+struct SharedByRuns;
+
 /// A number that a run measured. `at`: after so many views, in a sweep, of openings so wide [mm], …; 0 if there is one
 /// alone.
 struct MeasuredValue {
@@ -45,17 +47,18 @@ constexpr const char* main_measure(StudyPart part) {
 constexpr bool more_is_better(StudyPart part) { return part == StudyPart::planning; }
 
 /// Does a run. What is wrong with its object or settings is its result. With a folder the session is kept there.
+/// `shared`: by the runs before and after it, of any study; of one at a time.
 /// @throws Stopped; OutOfMemory, which says nothing of the run; std::runtime_error if the folder cannot be written
-RunResult perform(const Study& study, const StudyRun& run, RunSeconds& seconds,
+RunResult perform(const Study& study, const StudyRun& run, SharedByRuns& shared, RunSeconds& seconds,
                   const std::optional<std::filesystem::path>& session_folder = {}, const Progress& progress = {},
                   const std::stop_token& stop = {});
 
 // Of either part; throw what is wrong.
-RunResult perform_plan(const Configuration& configuration, RunSeconds& seconds,
+RunResult perform_plan(const Configuration& configuration, SharedByRuns& shared, RunSeconds& seconds,
                        const std::optional<std::filesystem::path>& session_folder, const Progress& progress,
                        const std::stop_token& stop);
-RunResult perform_map(const Configuration& configuration, const std::string& kind, RunSeconds& seconds,
-                      const Progress& progress, const std::stop_token& stop);
+RunResult perform_map(const Configuration& configuration, const std::string& kind, SharedByRuns& shared,
+                      RunSeconds& seconds, const Progress& progress, const std::stop_token& stop);
 
 std::string to_json(const RunResult& result, const std::string& key, const StudyRun& run);
 /// @throws std::runtime_error naming the file if it is no result

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "core/progress/stopped.hpp"
+#include "core/study/shared_by_runs.hpp"
 
 namespace nextview {
 namespace {
@@ -55,6 +56,7 @@ void run_study(const Study& study, const StudyKeys& keys, const StudyFolder& fol
                bool keep_scans, const RunDone& done, const Progress& progress, const std::stop_token& stop) {
   const std::vector<std::size_t> numbers = open_runs(keys, folder, share);
   StudyProgress how_far(numbers.size(), progress);
+  SharedByRuns shared;
   for (const std::size_t number : numbers) {
     throw_if_stopped(stop);
     const StudyRun run = study.run(number - 1);
@@ -63,7 +65,7 @@ void run_study(const Study& study, const StudyKeys& keys, const StudyFolder& fol
     RunSeconds seconds;
     const bool keeps = keep_scans && run.part == StudyPart::planning;
     const RunResult result = perform(
-        study, run, seconds, keeps ? std::optional(folder.session(key)) : std::nullopt,
+        study, run, shared, seconds, keeps ? std::optional(folder.session(key)) : std::nullopt,
         [&](double fraction, std::string_view) { how_far.tell(fraction); }, stop);
     folder.keep(key, run, result, seconds);
     how_far.end();

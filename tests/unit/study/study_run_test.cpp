@@ -5,6 +5,7 @@
 #include "core/offline/refinement.hpp"
 #include "core/session/session.hpp"
 #include "core/study/run_result.hpp"
+#include "core/study/shared_by_runs.hpp"
 #include "core/view/candidate_views.hpp"
 #include "tests/integration/small_scan.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
@@ -37,17 +38,23 @@ class StudyRuns : public testing::Test {
  protected:
   RunResult run(std::size_t i) {
     RunSeconds seconds;
-    return perform(study_, study_.run(i), seconds);
+    return perform(study_, study_.run(i), shared_, seconds);
+  }
+  RunResult run_alone(std::size_t i) const {
+    RunSeconds seconds;
+    SharedByRuns nothing;
+    return perform(study_, study_.run(i), nothing, seconds);
   }
   TemporaryFolder folder_;
   Study study_ = read_study(folder_.write("study.toml", text));
+  SharedByRuns shared_;
 };
 
 TEST_F(StudyRuns, ProgressNeverGoesBack) {
   for (const std::size_t i : {0u, 2u, 3u}) {  // a plan, a conventional map and a Gibbs map
     std::vector<double> fractions;
     RunSeconds seconds;
-    perform(study_, study_.run(i), seconds, {},
+    perform(study_, study_.run(i), shared_, seconds, {},
             [&](double fraction, std::string_view) { fractions.push_back(fraction); });
     ASSERT_GT(fractions.size(), 3u) << i;
     EXPECT_TRUE(std::ranges::is_sorted(fractions)) << i << ": " << testing::PrintToString(fractions);
@@ -71,6 +78,61 @@ TEST_F(StudyRuns, APlanIsAScan) {
     EXPECT_EQ(result.find("path[m]", r.step)->value, path);
   }
   EXPECT_NEAR(result.find("mean_coverage[%]", 0)->value, sum / 4.0, 1e-9);
+}
+
+TEST_F(StudyRuns, WhatRunsShareMakesNoDifference) {
+  study_ = read_study(folder_.write("shared.toml", R"(
+[settings]
+sensor.width = 80
+sensor.height = 60
+map.resolution = 0.04
+views.count = 8
+evaluation.surface_samples = 500
+gibbs.sweeps = 20
+[sensor.noisy]
+sensor.width = 80
+sensor.height = 60
+sensor.range_noise = 0.01
+[policy.any_pose]
+planner.gain = "random"
+evaluation.any_pose = true
+[map.strict]
+kind = "octomap"
+map.hit = 0.9
+[map.from_free]
+kind = "gibbs"
+gibbs.start = "free"
+[[planning]]
+objects = ["box", "slotted_plate"]
+sensors = ["default", "noisy"]
+policies = ["oracle", "any_pose"]
+seeds = [1, 2]
+views = 2
+[[maps]]
+objects = ["slotted_plate"]
+maps = ["octomap", "strict", "gibbs", "from_free"]
+views = [3, 4]
+)"));
+  for (std::size_t i = 0; i < study_.size(); ++i) {
+    const RunResult result = run(i);
+    EXPECT_EQ(result.failure, "") << i;
+    EXPECT_EQ(result.measured, run_alone(i).measured) << study_.run(i).text();
+  }
+  // One after the other is enough to differ, if anything of the one were taken for the other's.
+  EXPECT_NE(run(16).measured, run(17).measured);
+  EXPECT_NE(run(18).measured, run(19).measured);
+}
+
+TEST_F(StudyRuns, MapsOfTheSameViewsAreMadeOfTheSameScans) {
+  run(2);
+  shared_.views.name = "those of before";
+  run(3);
+  EXPECT_EQ(shared_.views.name, "those of before");
+  std::string other = text;
+  other.replace(other.find("views = 3"), 9, "views = 2");
+  study_ = read_study(folder_.write("other.toml", other));
+  run(2);
+  EXPECT_EQ(shared_.views.name, "slotted_plate") << "other views";
 }
 
 TEST_F(StudyRuns, ABrokenObjectIsAResult) {
