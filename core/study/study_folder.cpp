@@ -99,6 +99,8 @@ StudyFolder::StudyFolder(const fs::path& path, const StudyTexts& study, bool res
     write_file(path / study_json_name, study.json);
     write_file(path / study_file_name, study.file);
     write_file(path / study_keys_name, study.keys);
+    keep_names(path);
+    keep_names(path / "..");  // the folder may be new, too
   }
 }
 
@@ -144,6 +146,9 @@ void StudyFolder::keep(const std::string& key, const StudyRun& run, const RunRes
   const fs::path file = file_of(key);
   make_folder(file.parent_path());
   write_file(file, to_json(result, key, run));
+  keep_names(file.parent_path());
+  keep_names(folder_ / "runs");  // in which that may be new
+  keep_names(folder_);           // in which that may be
   if (result.failure.empty()) add_timing(key, run, seconds);
 }
 
