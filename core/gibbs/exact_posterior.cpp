@@ -70,6 +70,13 @@ class Enumeration {
   }
 
  private:
+  /// Takes the next voxel's level off the number of a combination, in the order in which combination() put them there.
+  std::uint8_t next_level(std::size_t& rest) const {
+    const std::size_t level = rest % levels_;
+    rest /= levels_;
+    return std::uint8_t(level);
+  }
+
   void tabulate(const RangeMeasurements& measurements, const RangeMeasurement& measured) {
     const Ray ray{ray_segments(grid_, measurements, measured, model_), double(measured.weight)};
     std::vector<std::uint32_t> voxels;
@@ -82,7 +89,7 @@ class Enumeration {
     Levels map(map_.size());
     for (std::size_t number = 0; number < combinations; ++number) {
       std::size_t rest = number;
-      for (const std::uint32_t voxel : voxels) map[voxel] = std::uint8_t(rest % levels_), rest /= levels_;
+      for (const std::uint32_t voxel : voxels) map[voxel] = next_level(rest);
       table.log_likelihood[number] +=
           ray.weight * model_.independence * log_likelihood(grid_, model_, measurements, measured, ray.segments, map);
     }
@@ -129,8 +136,7 @@ class Enumeration {
       std::size_t rest = number;
       for (const VoxelSegment& s : ray.segments) {
         reach[s.voxel] += survival;
-        survival *= model_.transmission(int(rest % levels_), (s.exit - s.enter) / grid_.resolution);
-        rest /= levels_;
+        survival *= model_.transmission(next_level(rest), (s.exit - s.enter) / grid_.resolution);
       }
     }
   }
