@@ -148,11 +148,9 @@ class StudyReader {
       else if (key == (plans ? "policies" : "maps"))
         block.methods = methods(part, node, key);
       else if (key == "views")
-        for (block.views.clear(); const std::int64_t views : whole(node, key, 1, 1000))
-          block.views.push_back(int(views));
+        block.views = whole_numbers<int>(node, key, 1, 1000);
       else if (key == "seeds")
-        for (block.seeds.clear(); const std::int64_t seed : whole(node, key, 0, largest_seed))
-          block.seeds.push_back(std::uint64_t(seed));
+        block.seeds = whole_numbers<std::uint64_t>(node, key, 0, largest_seed);
       else if (key == "starts" && plans)
         block.starts = starts(node);
       else if (key == "reference")
@@ -168,52 +166,48 @@ class StudyReader {
     const auto& variants = part == StudyPart::planning ? study_.policies : study_.maps;
     std::vector<std::string> known = part == StudyPart::planning ? policy_names() : known_maps();
     for (const auto& [variant, ignored] : variants) known.push_back(variant);
-    std::vector<std::string> all;
-    for_each(node, key, [&](const toml::node& one) { all.push_back(one_of(one, key, known)); });
-    return all;
+    return list_of<std::string>(node, key, [&](const toml::node& one) { return one_of(one, key, known); });
   }
 
   std::vector<std::string> texts(const toml::node& node, const std::string& key) const {
-    std::vector<std::string> all;
-    for_each(node, key, [&](const toml::node& one) {
-      all.push_back(text_of(one, key));
-      if (std::ranges::any_of(all.back(), [](unsigned char c) { return c < 0x20; }) || all.back().empty())
+    return list_of<std::string>(node, key, [&](const toml::node& one) {
+      std::string text = text_of(one, key);
+      if (text.empty() || std::ranges::any_of(text, [](unsigned char c) { return c < 0x20; }))
         throw failure(one, fmt::format("'{}' holds an empty name or a control character", key));
+      return text;
     });
-    return all;
   }
 
-  std::vector<std::int64_t> whole(const toml::node& node, const std::string& key, std::int64_t low,
-                                  std::int64_t high) const {
-    std::vector<std::int64_t> all;
-    for_each(node, key, [&](const toml::node& one) {
+  template <class Number>
+  std::vector<Number> whole_numbers(const toml::node& node, const std::string& key, std::int64_t low,
+                                    std::int64_t high) const {
+    return list_of<Number>(node, key, [&](const toml::node& one) {
       const auto* number = one.as_integer();
       if (!number || number->get() < low || number->get() > high)
         throw failure(one, fmt::format("'{}' takes whole numbers from {} to {}", key, low, high));
-      all.push_back(number->get());
+      return Number(number->get());
     });
-    return all;
   }
 
   std::vector<std::string> starts(const toml::node& node) const {
-    std::vector<std::string> all;
-    for_each(node, "starts", [&](const toml::node& one) {
+    return list_of<std::string>(node, "starts", [&](const toml::node& one) {
       const auto* pair = one.as_array();
       if (!pair || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number())
         throw failure(one, "'starts' takes pairs of azimuth and elevation [deg]: [[30, 20], [120, -20]]");
-      all.push_back(fmt::format("{:g} {:g}", *(*pair)[0].value<double>(), *(*pair)[1].value<double>()));
+      return fmt::format("{:g} {:g}", *(*pair)[0].value<double>(), *(*pair)[1].value<double>());
     });
-    return all;
   }
 
-  /// A single value counts as a list of one.
-  template <class Do>
-  void for_each(const toml::node& node, const std::string& key, const Do& visit) const {
+  /// What `read` makes of each value. A single value counts as a list of one.
+  template <class Value, class Read>
+  std::vector<Value> list_of(const toml::node& node, const std::string& key, const Read& read) const {
     const auto* list = node.as_array();
-    if (!list) return visit(node);
+    if (!list) return {read(node)};
     if (list->empty() || list->size() > most_of_an_axis)
       throw failure(node, fmt::format("'{}' must have from 1 to {} values", key, most_of_an_axis));
-    for (const toml::node& one : *list) visit(one);
+    std::vector<Value> all;
+    for (const toml::node& one : *list) all.push_back(read(one));
+    return all;
   }
 
   std::string one_of(const toml::node& node, const std::string& key, const std::vector<std::string>& known) const {
