@@ -3,7 +3,6 @@
 
 #include "tests/unit/panels/scan_states.hpp"
 #include "tests/unit/panels/seen.hpp"
-#include "ui/commands/file_commands.hpp"
 #include "ui/commands/window_commands.hpp"
 #include "ui/workbench/inspector.hpp"
 
@@ -189,11 +188,6 @@ TEST(FirstSteps, AreShownWhenTheyAreAskedForAndFitWhatIsOpen) {
       ask();
       EXPECT_EQ(read("First steps"), "");
     }
-}
-
-/// To clear a text in the session panel once threw out of the frame.
-TEST(SessionPanel, ATextCanBeCleared) {
-  EXPECT_EQ(command::set("planner.combined_weights", "").text(), "set planner.combined_weights \"\"");
 }
 
 }  // namespace

@@ -117,6 +117,26 @@ TEST(SessionPanelFields, CoverNoName) {
   EXPECT_GT(names, 60u);
 }
 
+/// That once threw out of the frame.
+TEST(SessionPanelFields, ATextCanBeCleared) {
+  Desk desk(1280, 3600);  // the whole group is in sight
+  const auto scan = made_scan();
+  scan->configuration.planner.combined_weights = "area-factor=3";
+  desk.snapshot = scan;
+  desk.frames();
+  click_on(desk, "Planner", "Session");
+  desk.frames();
+  const auto all = seen_texts();
+  const auto shown = std::ranges::find_if(all, [](const SeenText& t) { return t.text.ends_with("area-factor=3"); });
+  ASSERT_NE(shown, all.end()) << read("Session");
+  desk.click(shown->to.x - 4, shown->middle());
+  desk.frames();
+  desk.type_with(key('A'), true);
+  desk.type(Key::backspace);
+  desk.type(Key::enter);
+  EXPECT_EQ(text_of(desk.frames()), "set planner.combined_weights \"\"");
+}
+
 TEST_F(SessionPanelTest, AChoiceIsSetToo) {
   desk_.frames();
   click_on(desk_, "occlusion-aware", "Session");
