@@ -53,6 +53,20 @@ inline int count_amber(const Image& image, const Rectangle& r) {
   return count(image, r, [](const std::uint8_t* p) { return p[0] > p[2] + 70 && p[1] > p[2] + 35; });
 }
 
+/// How many pixels of a part differ.
+inline int differences(const Image& a, const Image& b, const Rectangle& r) {
+  int result = 0;
+  for (int y = int(r.y); y < int(r.y + r.height); ++y)
+    for (int x = int(r.x); x < int(r.x + r.width); ++x)
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t at = (std::size_t(y) * a.width + x) * 4 + c;
+        if (a.rgba[at] == b.rgba[at]) continue;
+        ++result;
+        break;
+      }
+  return result;
+}
+
 inline std::size_t colours(const Image& image, const Rectangle& r) {
   std::set<std::uint32_t> seen;
   count(image, r, [&](const std::uint8_t* p) { return seen.insert(p[0] << 16 | p[1] << 8 | p[2]).second; });

@@ -92,20 +92,6 @@ void rest(User& user) {
   }
 }
 
-/// How many pixels of a part differ.
-int differences(const Image& a, const Image& b, const Rectangle& r) {
-  int result = 0;
-  for (int y = int(r.y); y < int(r.y + r.height); ++y)
-    for (int x = int(r.x); x < int(r.x + r.width); ++x)
-      for (int c = 0; c < 3; ++c) {
-        const std::size_t at = (std::size_t(y) * a.width + x) * 4 + c;
-        if (a.rgba[at] == b.rgba[at]) continue;
-        ++result;
-        break;
-      }
-  return result;
-}
-
 TEST(Window, ATooltipAppearsBesideAPointerThatRests) {
   User user(small_scan());
   const Layout layout = user.window().layout();
