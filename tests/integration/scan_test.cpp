@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
 
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
@@ -98,20 +101,58 @@ TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
-TEST(Scan, EveryGainAndBaselineRuns) {
+/// By scores.csv: what each candidate was worth, at each step.
+std::vector<double> gains_of(const Table& scores) {
+  std::vector<double> gains;
+  for (const auto& row : scores)
+    for (const auto& [column, cell] : row)
+      if (column.starts_with("gain[")) gains.push_back(std::stod(cell));
+  return gains;
+}
+
+/// By scores.csv: the candidate of the largest utility after this step.
+std::string best_after(const std::string& step, const Table& scores) {
+  std::string best = "none";
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const auto& row : scores) {
+    if (row.at("step") != step || row.at("available") != "1") continue;
+    const double utility = std::stod(row.at("utility"));
+    if (utility > largest) best = row.at("view"), largest = utility;
+  }
+  return best;
+}
+
+TEST(Scan, EveryGainAndBaselinePlansByValuesOfItsOwn) {
   // Whether each plans at all shows with few pixels, voxels and samples, too.
   const std::string tiny =
       "--sensor.width 60 --sensor.height 45 --map.resolution 0.04 --map.region_edge 0.72 --views.count 12 "
       "--evaluation.surface_samples 200 ";
+  std::map<std::pair<std::string, std::string>, std::vector<double>> gains;  // by name and semantics
+  std::set<std::vector<double>> published;
   for (const char* gain : {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy",
                            "proximity-count", "area-factor", "average-entropy", "combined", "random", "farthest",
                            "fixed-order", "covering-order", "set-cover", "surface-edge-density", "oracle"})
     for (const char* semantics : {"published", "reference"}) {
+      SCOPED_TRACE(std::string(gain) + ", " + semantics);
       const TemporaryFolder folder;
       const Result run = nextview("scan " + housing() + tiny + "--no-pictures --no-surfaces --gain " + gain +
                                   " --views 2 --semantics " + semantics + " --out " + folder.path().string());
-      EXPECT_EQ(run.exit_code, 0) << gain << ", " << semantics << ": " << run.err;
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+      const Table scores = read_table(read_file(folder.path() / "scores.csv"));
+      const std::vector<double> values = gains_of(scores);
+      ASSERT_EQ(values.size(), 2u * 12u);
+      EXPECT_GT(std::set<double>(values.begin(), values.end()).size(), 2u) << "it does not tell the candidates apart";
+      const Table steps = read_table(read_file(folder.path() / "steps.csv"));
+      ASSERT_EQ(steps.size(), 2u);
+      EXPECT_EQ(steps[0].at("next_view"), best_after("1", scores));
+      EXPECT_EQ(steps[1].at("view"), best_after("1", scores)) << "another view was taken than the best";
+      gains[{gain, semantics}] = values;
+      if (semantics == std::string("published")) published.insert(values);
     }
+  // Occlusion-aware and unobserved-voxel are the same as long as no known voxel is in sight.
+  EXPECT_GE(published.size(), 14u) << "different gains have the same values";
+  EXPECT_NE((gains[{"occlusion-aware", "published"}]), (gains[{"occlusion-aware", "reference"}]));
+  EXPECT_EQ((gains[{"farthest", "published"}]), (gains[{"farthest", "reference"}])) << "a baseline has one semantics";
 }
 
 TEST(Help, EverySubcommandHasAnExample) {
