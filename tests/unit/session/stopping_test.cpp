@@ -42,6 +42,7 @@ TEST(StoppingASession, AtEachReportItIsAsBefore) {
   for (const Configuration& c : kinds_of_sessions()) {
     Twins twins(c);
     for (int step = 0; step < 3; ++step) {
+      int stops = 0;
       for (int moment = 0;; ++moment) {
         std::stop_source stop;
         int calls = 0;
@@ -49,9 +50,11 @@ TEST(StoppingASession, AtEachReportItIsAsBefore) {
           if (calls++ == moment && fraction < 1.0) stop.request_stop();
         };
         if (twins.stopped.step(stop_there, stop.get_token())) break;
+        ++stops;
         EXPECT_TRUE(same_scan(twins.stopped, twins.untouched)) << c.planner.gain << ", report " << moment;
         EXPECT_TRUE(same_refinement(twins.stopped, twins.untouched)) << c.planner.gain << ", report " << moment;
       }
+      EXPECT_GE(stops, 2) << c.planner.gain << ": it went on to its end";
       twins.untouched.step();
       EXPECT_TRUE(same_scan(twins.stopped, twins.untouched)) << c.planner.gain << ": a stop left something behind";
       EXPECT_TRUE(same_refinement(twins.stopped, twins.untouched)) << c.planner.gain;
@@ -95,6 +98,7 @@ TEST(StoppingASession, AtAnyOtherMomentItIsAsBefore) {
 TEST(StoppingASession, AFailureAtAnyMomentLeavesItAsBefore) {
   for (const Configuration& c : kinds_of_sessions()) {
     Twins twins(c);
+    int failures = 0;
     for (int moment = 0;; ++moment) {
       int calls = 0;
       const Progress fail_there = [&](double fraction, std::string_view) {
@@ -105,9 +109,11 @@ TEST(StoppingASession, AFailureAtAnyMomentLeavesItAsBefore) {
         break;
       } catch (const std::runtime_error& error) {
         EXPECT_NE(std::string(error.what()).find("32 x 32 x 32 voxels"), std::string::npos) << error.what();
+        ++failures;
       }
       EXPECT_TRUE(same_scan(twins.stopped, twins.untouched)) << c.planner.gain << ", report " << moment;
     }
+    EXPECT_GE(failures, 2) << c.planner.gain << ": it went on to its end";
     twins.untouched.step();
     EXPECT_TRUE(same_scan(twins.stopped, twins.untouched)) << c.planner.gain;
   }
