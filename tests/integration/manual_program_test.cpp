@@ -21,6 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 TEST(Manual, CheapExamplesRun) {
+  int run = 0;
   for (const auto& file : manual_pages()) {
     const TemporaryFolder folder;
     for (const std::string& line : shell_lines(file, true)) {
@@ -28,8 +29,10 @@ TEST(Manual, CheapExamplesRun) {
                                             line.substr(std::min(line.find(' ') + 1, line.size())));
       EXPECT_EQ(result.exit_code, 0) << file.filename() << ": " << line << "\n" << result.err;
       EXPECT_FALSE(result.out.empty()) << line;
+      ++run;
     }
   }
+  EXPECT_GE(run, 3) << "what is to be run is no longer found";
 }
 
 /// `surface_map.*` stands for all that begin so, `step_01.png` for the pictures of all steps.

@@ -58,6 +58,7 @@ TEST(SmoothedPoints, LieOnASlantedPlane) {
 TEST(SmoothedPoints, StayOnTheirRaysInTheirOrder) {
   const NoisyScan noisy(slanted_plane);
   const PointCloud smoothed = smoothed_points(noisy.scan, noisy.T_world_camera, smoothing);
+  ASSERT_EQ(smoothed.size(), noisy.scan.hits.size());
   for (std::size_t i = 0; i < smoothed.size(); ++i) {
     const Vector3 before = noisy.in_camera(noisy.scan.hits[i]).normalized(), after = noisy.in_camera(smoothed[i]);
     ASSERT_NEAR(before.dot(after.normalized()), 1.0, 1e-9) << i;
@@ -67,6 +68,7 @@ TEST(SmoothedPoints, StayOnTheirRaysInTheirOrder) {
 TEST(SmoothedPoints, OfAPlaneWithoutNoiseStay) {
   const NoisyScan exact(slanted_plane, 0.0);
   const PointCloud smoothed = smoothed_points(exact.scan, exact.T_world_camera, smoothing);
+  ASSERT_EQ(smoothed.size(), exact.scan.hits.size());
   for (std::size_t i = 0; i < smoothed.size(); ++i)
     ASSERT_LT((smoothed[i] - exact.scan.hits[i]).norm(), 2e-5f) << i;  // what a plane bends in ranges
 }
@@ -75,6 +77,7 @@ TEST(SmoothedPoints, KeepAStep) {
   const auto step = [](double x, double) { return x < 0.0 ? 1.0 : 1.06; };
   const NoisyScan noisy(step);
   const PointCloud smoothed = smoothed_points(noisy.scan, noisy.T_world_camera, smoothing);
+  ASSERT_EQ(smoothed.size(), noisy.scan.hits.size());
   for (const Eigen::Vector3f& point : smoothed) {
     const Vector3 p = noisy.in_camera(point);
     ASSERT_NEAR(p.z(), step(p.x() / p.z() + 1e-6, 0.0), 4.0 * noise) << p.transpose();

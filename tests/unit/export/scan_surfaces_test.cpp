@@ -77,7 +77,9 @@ TEST(ScanSurfaces, TheGroundBelowTheObjectIsNoErrorOfTheirs) {
   c.object.ground = true;
   Session session(c);
   finish(session);
-  for (const ScanSurface& surface : scan_surfaces(session)) {
+  const auto surfaces = scan_surfaces(session);
+  ASSERT_EQ(surfaces.size(), 2u);
+  for (const ScanSurface& surface : surfaces) {
     ASSERT_TRUE(surface.surface_error) << surface.name;
     EXPECT_LT(surface.surface_error->percentile_95, c.map.resolution) << surface.name;
     EXPECT_LT(surface.surface_error->area_seen + surface.surface_error->area_unseen,
@@ -110,7 +112,9 @@ TEST(ScanSurfaces, SayWhereTheTrueMeshHasNoInside) {
     c.object.file = object;
     Session session(c);
     session.step();
-    for (const ScanSurface& s : scan_surfaces(session))
+    const auto surfaces = scan_surfaces(session);
+    ASSERT_EQ(surfaces.size(), 2u);
+    for (const ScanSurface& s : surfaces)
       EXPECT_EQ(summary(s).ends_with(", whose mesh is not closed: which side of it is a guess"),
                 object.ends_with("corner.ply"))
           << summary(s);

@@ -194,6 +194,7 @@ TEST(ScoreViews, AStopLeavesScoresEmpty) {
   stop.request_stop();
   const auto scores = score_views(MapRays(grid, {grid.size, voxels}, threshold, 1.5), views, bundle(), all_gains(), {},
                                   stop.get_token());
+  ASSERT_EQ(scores.size(), views.size());
   for (const ViewScore& s : scores) EXPECT_TRUE(s.gains.empty());
 }
 

@@ -178,12 +178,15 @@ TEST(NewSurface, BehindAnOccupiedVoxelThereIsNone) {
   made.set_box({25, 10, 10}, {25, 49, 49}, 1.0);  // as large, and hidden
   const Pose view = look_at(Vector3(-1.0, 0.0, 0.0), Vector3::Zero());
   const NewSurfaceField field(made.evidence(), of_occupied_alone(0.3));
+  int meet_it = 0;
   for (const auto& ray :
        explain_new_surface(field, made.map.grid(), made.map.voxels(), view, small_bundle(), {}).rays) {
     std::size_t occupied = 0;
     for (const auto& voxel : ray.voxels) occupied += voxel.measured;
     EXPECT_LE(occupied, 1u);
+    meet_it += occupied == 1;
   }
+  EXPECT_GT(meet_it, 20);
 }
 
 TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {

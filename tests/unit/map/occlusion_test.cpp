@@ -125,9 +125,13 @@ TEST(MarkOcclusions, ChangesNeitherProbabilitiesNorWhatIsMeasured) {
 
 TEST(MarkOcclusions, HitsOutOfRangeMarkNothing) {
   OccupancyMap map(region_of_interest(Vector3::Zero(), 0.64, voxel_edge), {});
-  const Scan scan{Vector3(-0.25, 0.01, 0.01), {{0.05f, 0.01f, 0.01f}}, {{0.09f, 0.03f, 0.01f}}, 0.2};
+  Scan scan{Vector3(-0.25, 0.01, 0.01), {{0.05f, 0.01f, 0.01f}}, {{0.09f, 0.03f, 0.01f}}, 0.2};
   map.mark_occlusions(scan, 0.3);
   for (const Voxel& v : map.voxels()) ASSERT_EQ(v.occlusion_distance, 0);
+  scan.max_range = 0.31;
+  map.mark_occlusions(scan, 0.3);
+  EXPECT_GT(std::ranges::count_if(map.voxels(), [](const Voxel& v) { return v.occlusion_distance > 0; }), 5)
+      << "the same in range";
 }
 
 TEST(MarkOcclusions, LongDistancesDoNotWrapAround) {

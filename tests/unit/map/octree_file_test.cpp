@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstring>
 #include <memory>
@@ -156,13 +157,17 @@ TEST_F(OctreeFile, BinaryFilesKeepWhichVoxelsAreOccupied) {
   write_octree(both.map, folder_ / "map.bt");
   const OccupancyMap read = read_octree(folder_ / "map.bt");
   const Eigen::Vector3i offset = read.grid().first - both.map.grid().first;
+  std::array<int, 2> compared = {};  // free and occupied ones
   for (std::uint32_t i = 0; i < both.map.grid().voxel_count(); ++i) {
     const Voxel& v = both.map.voxels()[i];
     if (!v.measured) continue;
     const Voxel& r = read.voxels()[read.grid().index(both.map.grid().cell(i) - offset)];
     ASSERT_TRUE(r.measured);
     ASSERT_NEAR(r.probability, v.probability >= 0.5f ? 0.97 : 0.12, 1e-6);
+    ++compared[v.probability >= 0.5f];
   }
+  EXPECT_GT(compared[0], 100);
+  EXPECT_GT(compared[1], 100);
 }
 
 TEST_F(OctreeFile, LargeLeavesAreFilled) {

@@ -211,6 +211,7 @@ TEST_F(Bars, NoNumberOfANotificationComesApart) {
   for (int i = 0; i < 40; ++i) text += fmt::format(" {}.406", std::string(std::size_t(1 + i % 7), '1'));
   desk_.log = {{LogEntry::Level::warning, text}};
   desk_.frames();
+  EXPECT_GT(read_lines("Notifications").size(), 3u);
   for (const std::string& line : read_lines("Notifications")) EXPECT_FALSE(line.ends_with(".")) << line;
 }
 

@@ -74,17 +74,22 @@ TEST(Curves, TheDistanceThatCoverageIsCountedAtIsInMillimetres) {
 TEST(Curves, EntropyAndCoverageBeginBeforeTheFirstView) {
   const auto s = made_scan();
   for (const CurveKind kind : {CurveKind::entropy, CurveKind::coverage}) {
-    for (const ChartSeries& series : curve_content(*s, kind).series) {
+    const auto all = curve_content(*s, kind).series;
+    ASSERT_FALSE(all.empty()) << int(kind);
+    for (const ChartSeries& series : all) {
       EXPECT_THAT(series.x, ElementsAre(0, 1, 2));
       EXPECT_NEAR(series.y[0], kind == CurveKind::entropy ? double(s->grid.voxel_count()) / 1e6 : 0, 1e-12)
           << "a voxel that nobody measured has a bit";
     }
   }
-  for (const CurveKind kind : {CurveKind::divergence, CurveKind::gain, CurveKind::time})
-    for (const ChartSeries& series : curve_content(*s, kind).series) {
+  for (const CurveKind kind : {CurveKind::divergence, CurveKind::gain, CurveKind::time}) {
+    const auto all = curve_content(*s, kind).series;
+    ASSERT_FALSE(all.empty()) << int(kind);
+    for (const ChartSeries& series : all) {
       const bool is_of_choice = series.name == "expected" || series.name == "predicted";
       EXPECT_EQ(series.x, is_of_choice ? std::vector<double>{2} : (std::vector<double>{1, 2})) << series.name;
     }
+  }
 }
 
 TEST(Curves, EarlierRunsStayBehindWithTheirFirstCurve) {

@@ -92,8 +92,9 @@ TEST(AdaptiveCandidates, KeepTheirDistanceAndAreNotAlike) {
 }
 
 TEST(AdaptiveCandidates, LookAtTheObjectFromAboutTheDistance) {
-  const Knowledge known = one_side();
-  for (const Pose& pose : made_for(known)) {
+  const std::vector<Pose> made = made_for(one_side());
+  ASSERT_EQ(made.size(), 16u);
+  for (const Pose& pose : made) {
     const double distance = pose.translation().norm();  // the object is about the middle of the region
     EXPECT_GT(distance, 0.25);
     EXPECT_LT(distance, 1.2);

@@ -189,10 +189,13 @@ TEST(DepthNoise, aPixelThatDropsOutIsNoOutlier) {
   const DepthImage dropped = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
   config.outliers = 1.0;
   const DepthImage image = DepthCamera(config).sense(scene, T_world_camera, 9, 2);
+  int count = 0;
   for (std::size_t i = 0; i < image.range.size(); ++i) {
     ASSERT_EQ(std::isnan(image.range[i]), std::isnan(dropped.range[i]));
     ASSERT_FALSE(DepthImage::is_beyond_range(image.range[i]));
+    count += std::isnan(image.range[i]);
   }
+  EXPECT_NEAR(count, 0.3 * 320 * 240, 1000);
 }
 
 }  // namespace

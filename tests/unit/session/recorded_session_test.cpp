@@ -145,6 +145,7 @@ TEST_F(RecordedSession, TheOracleIsTheGreedyOrderOfWhatFramesShow) {
   Session session(c);
   const RecordedSurface& surface = *session.setup().recorded;
   finish(session);
+  ASSERT_EQ(session.records().size(), surface.frames());
   std::vector<std::size_t> taken = {0};
   for (std::size_t k = 1; k < session.records().size(); ++k) {
     const auto with = [&](std::size_t frame) {

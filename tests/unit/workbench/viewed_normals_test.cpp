@@ -79,7 +79,9 @@ TEST(ViewedNormals, OfAStripTwoCellsWideAreThoseOfItsWall) {
     for (const double angle : {-0.6, 0.0, 0.6}) {
       const Scan scan = scan_of_strip(along_y, angle);
       const Vector3 wall(along_y ? std::sin(angle) : 0, along_y ? 0 : std::sin(angle), -std::cos(angle));
-      for (const Eigen::Vector3f& normal : viewed_normals(scan, 1))
+      const auto normals = viewed_normals(scan, 1);
+      ASSERT_EQ(normals.size(), scan.hits.size());
+      for (const Eigen::Vector3f& normal : normals)
         ASSERT_GT(normal.cast<double>().dot(wall), 0.999) << along_y << " at " << angle;
     }
 }
