@@ -16,6 +16,7 @@ TEST(RayGrid, PutsEachRayWhereTheCameraSendsIt) {
       Configuration c;
       c.planner.semantics = semantics;
       const PinholeCamera camera = PinholeCamera::from_field_of_view(width, height, 1.0);
+      ASSERT_FALSE(scoring_rays(c, camera).directions.empty());
       for (const RayBundle& bundle : {scoring_rays(c, camera), finer_rays(c, camera)}) {
         if (bundle.directions.empty()) continue;
         const RayGrid grid(c.planner, camera, bundle.directions.size());
