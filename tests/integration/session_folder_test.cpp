@@ -53,9 +53,10 @@ class SessionFolders : public testing::Test {
   long run_and_kill(long at, const std::string& folder, const std::string& arguments) const {
     const std::string count = in("count");
     fs::remove(count);
-    nextview_behind("LD_PRELOAD=" NEXTVIEW_KILL_AT_CALL " NEXTVIEW_KILL_BELOW=" + folder +
-                        " NEXTVIEW_KILL_COUNT=" + count + " NEXTVIEW_KILL_AT=" + std::to_string(at),
-                    arguments);
+    const Result run = nextview_behind("LD_PRELOAD=" NEXTVIEW_KILL_AT_CALL " NEXTVIEW_KILL_BELOW=" + folder +
+                                           " NEXTVIEW_KILL_COUNT=" + count + " NEXTVIEW_KILL_AT=" + std::to_string(at),
+                                       arguments);
+    EXPECT_EQ(run.exit_code != 0, at > 0) << "killed at " << at << "? " << run.err;
     return fs::exists(count) ? std::stol(read_file(count)) : 0;
   }
   TemporaryFolder folder_;
@@ -125,6 +126,7 @@ TEST_P(KilledSessions, AtRandomMomentsGoOnToTheSameBytes) {
 TEST_F(SessionFolders, AFullDiskAtAnyWriteIsSaidAndItGoesOnLater) {
   const std::string scan = "scan box --views 3 " + camera + quick;
   const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
+  ASSERT_GT(calls, 60);
   const long stride = std::getenv("NEXTVIEW_EVERY_WRITE") ? 1 : calls / 10;
   for (long at = 1; at <= calls; at += stride) {
     SCOPED_TRACE(at);
