@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
@@ -68,13 +69,16 @@ TEST_F(Refine, SameBytesOnAnyNumberOfThreadsAndFromItsOwnConfiguration) {
   }
 }
 
-TEST_F(Refine, EveryModelAndThePaperRun) {
+TEST_F(Refine, EveryModelAndThePaperMakeAMapOfTheirOwn) {
+  std::set<std::string> maps;
   for (const std::string options : {"--gibbs.model beam", "--gibbs.model cone", "--gibbs.model paper", "--config paper",
                                     "--gibbs.updated occupied", "--gibbs.start random"}) {
     const Result run = nextview("refine " + scan() + " --no-pictures --no-surfaces --gibbs.sweeps 20 " + options +
                                 " --out " + out("model"));
     EXPECT_EQ(run.exit_code, 0) << options << ": " << run.err;
     EXPECT_EQ(read_file(fs::path(out("model")) / "metrics.json").find("nan"), std::string::npos) << options;
+    EXPECT_TRUE(maps.insert(read_file(fs::path(out("model")) / "posterior.ot")).second)
+        << options << ": as another one's";
   }
 }
 
