@@ -156,10 +156,11 @@ TEST(Scan, EveryGainAndBaselinePlansByValuesOfItsOwn) {
 }
 
 TEST(Help, EverySubcommandHasAnExample) {
-  for (const char* command : {"", "scan", "score", "refine", "calibrate", "window", "info", "driver"}) {
+  for (const char* command : {"", "scan", "score", "refine", "calibrate", "posterior", "window", "info", "driver",
+                              "export", "figure", "study", "demo", "help"}) {
     const Result run = nextview(std::string(command) + " --help");
-    EXPECT_EQ(run.exit_code, 0);
-    EXPECT_THAT(run.out, HasSubstr("Example"));
+    EXPECT_EQ(run.exit_code, 0) << command;
+    EXPECT_THAT(run.out, HasSubstr("Examples:")) << command;
   }
   EXPECT_THAT(nextview("--version").out, HasSubstr("nextview "));
 }
