@@ -78,9 +78,9 @@ TEST_F(WindowFiles, WhatFailedIsToldUntilSomethingElseIsDone) {
 TEST_F(WindowFiles, OfSeveralFilesThatAreDroppedItIsSaidWhichIsOpened) {
   User user(small_scan());
   user.wait();
-  user.drop("sphere", 2);
+  user.drop("box", 2);
   user.wait();
-  EXPECT_EQ(user.session().object_name, "sphere");
+  EXPECT_EQ(user.session().object_name, "box");
   const ImGuiWindow* const notes = ImGui::FindWindowByName("Notifications");
   EXPECT_TRUE(notes && notes->WasActive) << "it went with what was said of the object before";
 }

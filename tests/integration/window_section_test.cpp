@@ -94,12 +94,13 @@ TEST_F(WindowSection, TheSurfaceIsPaintedByItsDistanceAndGoesAgain) {
   const Image with = user_.look();
   const Rectangle& place = user_.window().layout().scene;
   EXPECT_GT(colours(with, place), colours(without, place) + 300) << "nothing is painted";
+  // The panels are others after each command, whatever the scene shows.
   user_.run("surface-colour single\nsurface-of map\nwait until done\n");
-  EXPECT_NE(user_.look(), with);
+  EXPECT_GT(differences(user_.look(), with, place), 1000);
   user_.run("surface-colour deviation\nsurface-of cloud\nwait until done\n");
   EXPECT_EQ(user_.look(), with);
   user_.run("step\nwait until done\n");
-  EXPECT_NE(user_.look(), with) << "it is made of all views";
+  EXPECT_GT(differences(user_.look(), with, place), 100) << "it is made of all views";
   user_.run("undo\nwait until done\n");
   user_.run("toggle-surface\ntoggle-object\n");  // which stands in for it again
   EXPECT_EQ(colours(user_.look(), place), colours(before, place));
