@@ -135,7 +135,7 @@ TEST(SessionEdge, TheObjectIsScaledOrKept) {
   EXPECT_NEAR(Session(kept).mesh()->bounding_box().sizes().maxCoeff(), 0.5, 1e-6);
 }
 
-// The map of an ideal scan of a box: free in front, occupied where the box is, nothing measured inside.
+// The map of an ideal scan of a sphere: free in front, occupied where the box is, nothing measured inside.
 TEST(SessionEdge, TheMapShowsTheObject) {
   Configuration c = small_scan();
   c.object.file = NEXTVIEW_SOURCE_DIR "/assets/objects/sphere.ply";

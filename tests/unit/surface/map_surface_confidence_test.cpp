@@ -140,16 +140,21 @@ TEST(MapSurfaceSeen, ASingleUnmeasuredVoxelInASeenWallDoesNotTearItsNeighbours) 
       for (int z = 0; z < 3; ++z) voxels[grid.index({x, y, z})] = z == 2 ? measured(1.0f) : Voxel{};
   voxels[grid.index({5, 5, 2})] = Voxel{};
   const Surface surface = map_surface(grid, voxels);
+  int in_it = 0, around = 0;
   for (std::size_t v = 0; v < surface.seen.size(); ++v) {
     const Vector3 off = surface.mesh.vertices[v].cast<double>() - grid.centre(grid.index({5, 5, 2}));
     if (std::abs(off.z()) > 0.1 * edge) continue;
     if (off.norm() < 0.1 * edge) {
       EXPECT_EQ(surface.seen[v], 0);
+      ++in_it;
     }
     if (off.norm() > 1.1 * edge && off.head<2>().cwiseAbs().maxCoeff() < 4.2 * edge) {
       EXPECT_EQ(surface.seen[v], 1) << off.transpose();
+      ++around;
     }
   }
+  EXPECT_GT(in_it, 0);
+  EXPECT_GT(around, 20);
 }
 
 TEST(MapSurfaceSeen, ASingleMeasuredVoxelInAWallNoViewHasSeenIsSeenAlone) {
