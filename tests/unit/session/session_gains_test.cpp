@@ -31,8 +31,13 @@ TEST(SessionGains, EveryGainAndBaselineRuns) {
       finish(session);
       const auto views = views_of(session);
       EXPECT_EQ(std::set<int>(views.begin(), views.end()).size(), 3u) << gain;
+      double largest = 0.0;
       for (const StepRecord& r : session.records())
-        for (const Candidate& c : r.candidates) EXPECT_TRUE(std::isfinite(c.gain) && std::isfinite(c.utility)) << gain;
+        for (const Candidate& c : r.candidates) {
+          EXPECT_TRUE(std::isfinite(c.gain) && std::isfinite(c.utility)) << gain;
+          largest = std::max(largest, c.gain);
+        }
+      EXPECT_GT(largest, 0.0) << gain << " is nothing all the time";
       EXPECT_FALSE(summary.empty()) << gain;
     }
 }
