@@ -69,7 +69,7 @@ TEST_F(Refine, SameBytesOnAnyNumberOfThreadsAndFromItsOwnConfiguration) {
   }
 }
 
-TEST_F(Refine, EveryModelAndThePaperMakeAMapOfTheirOwn) {
+TEST_F(Refine, EveryModelAndThePaperRun) {
   std::set<std::string> maps;
   for (const std::string options : {"--gibbs.model beam", "--gibbs.model cone", "--gibbs.model paper", "--config paper",
                                     "--gibbs.updated occupied", "--gibbs.start random"}) {

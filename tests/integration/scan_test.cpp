@@ -122,7 +122,7 @@ std::string best_after(const std::string& step, const Table& scores) {
   return best;
 }
 
-TEST(Scan, EveryGainAndBaselinePlansByValuesOfItsOwn) {
+TEST(Scan, EveryGainAndBaselineRuns) {
   // Whether each plans at all shows with few pixels, voxels and samples, too.
   const std::string tiny =
       "--sensor.width 60 --sensor.height 45 --map.resolution 0.04 --map.region_edge 0.72 --views.count 12 "
