@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 #include "core/evaluation/any_pose.hpp"
 #include "core/evaluation/visited_voxels.hpp"
@@ -71,10 +72,13 @@ CandidateSight KnownObject::sight_of(std::span<const Pose> candidates, const Pro
   CandidateSight sight{{candidates.begin(), candidates.end()}, {}, samples_.points.size()};
   sight.samples.resize(candidates.size());
   std::atomic<std::size_t> done = 0;
+  const std::thread::id here = std::this_thread::get_id();
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t v) {
     if (stop.stop_requested()) return;
     sight.samples[v] = samples_seen(candidates[v], stop);
-    if (progress) progress(double(++done) / double(candidates.size()), "finding what each candidate can see");
+    const std::size_t so_far = ++done;  // of all threads; one tells of them, so that it never goes back
+    if (progress && std::this_thread::get_id() == here)
+      progress(double(so_far) / double(candidates.size()), "finding what each candidate can see");
   });
   throw_if_stopped(stop);
   return sight;
