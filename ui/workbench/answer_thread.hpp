@@ -1,5 +1,6 @@
 #pragma once
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -15,7 +16,8 @@ namespace nextview {
 template <class Question, class Answer>
 class AnswerThread {
  public:
-  /// May return null: there is no answer, and the one before stays.
+  /// May return null: there is no answer, and the one before stays. So it is where it throws, for lack of memory for
+  /// example: nobody waits on that thread to hear of it.
   using Find = std::function<std::shared_ptr<const Answer>(const Question&, const std::stop_token&)>;
 
   /// `find` and `on_news` are called from that thread; the second when there is another answer.
@@ -61,13 +63,21 @@ class AnswerThread {
       const std::stop_token stop = job_.get_token();
       running_ = true;
       lock.unlock();
-      auto answer = find_(question, stop);
+      auto answer = found(question, stop);
       lock.lock();
       running_ = false;
       if (answer) answer_ = std::move(answer);
       lock.unlock();
       if (on_news_) on_news_();
       lock.lock();
+    }
+  }
+
+  std::shared_ptr<const Answer> found(const Question& question, const std::stop_token& stop) const {
+    try {
+      return find_(question, stop);
+    } catch (const std::exception&) {
+      return nullptr;
     }
   }
 

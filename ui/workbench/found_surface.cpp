@@ -4,6 +4,24 @@
 #include "ui/workbench/chosen_voxels.hpp"
 
 namespace nextview {
+namespace {
+
+/// What the surface is made of, and compared with. @throws Stopped
+ReconstructionInput input_of(const SurfaceQuestion& question, const std::stop_token& stop) {
+  const SessionSnapshot& s = *question.session;
+  ReconstructionInput input{s.grid, chosen_bricks(s, question.map)};
+  if (question.map == MapChoice::gibbs && s.gibbs) input.prior = s.gibbs->config.prior;
+  for (const auto& scan : s.scans) input.scans.push_back(scan.get());
+  if (s.setup->truth && s.mesh) {
+    input.true_mesh = s.mesh.get();
+    input.samples = &s.setup->truth->samples();
+    input.visible = s.setup->truth->visible(stop);
+    input.on_ground = s.configuration.object.ground;
+  }
+  return input;
+}
+
+}  // namespace
 
 bool SurfaceQuestion::same_as(const SurfaceQuestion& other) const {
   if (!session || !other.session) return !session && !other.session;
@@ -14,20 +32,11 @@ bool SurfaceQuestion::same_as(const SurfaceQuestion& other) const {
 
 std::shared_ptr<const FoundSurface> find_surface(const SurfaceQuestion& question, const Progress& progress,
                                                  const std::stop_token& stop) {
-  const SessionSnapshot& s = *question.session;
-  ReconstructionInput input{s.grid, chosen_bricks(s, question.map)};
-  if (question.map == MapChoice::gibbs && s.gibbs) input.prior = s.gibbs->config.prior;
-  for (const auto& scan : s.scans) input.scans.push_back(scan.get());
-  if (s.setup->truth && s.mesh) {
-    input.true_mesh = s.mesh.get();
-    input.samples = &s.setup->truth->samples();
-    input.visible = s.setup->truth->visible();
-    input.on_ground = s.configuration.object.ground;
-  }
   try {
     auto found = std::make_shared<FoundSurface>();
     found->of = question;
-    if (!s.records.empty()) found->found = scan_surface(input, question.source, progress, stop);
+    if (!question.session->records.empty())
+      found->found = scan_surface(input_of(question, stop), question.source, progress, stop);
     return found;
   } catch (const Stopped&) {
     return nullptr;

@@ -6,12 +6,8 @@ namespace nextview {
 
 InspectionWorker::InspectionWorker(std::function<void()> on_news)
     : inspections_(
-          [this](const Question& question, const std::stop_token&) -> std::shared_ptr<const Inspection> {
-            try {
-              return std::make_shared<const Inspection>(inspector_.inspect(question.session, question.selection));
-            } catch (const std::exception&) {  // such as a lack of memory: the scan stands, and the answer before stays
-              return nullptr;
-            }
+          [this](const Question& question, const std::stop_token&) {
+            return std::make_shared<const Inspection>(inspector_.inspect(question.session, question.selection));
           },
           on_news),
       surfaces_(
