@@ -55,8 +55,8 @@ Json to_json(const ScanSurface& s) {
   return json;
 }
 
-/// What of a session surfaces are made of.
-ReconstructionInput input_of(const Session& session) {
+/// What of a session surfaces are made of. @throws Stopped
+ReconstructionInput input_of(const Session& session, const std::stop_token& stop) {
   std::vector<const Scan*> scans;
   for (const auto& scan : session.scans()) scans.push_back(scan.get());
   const KnownObject* known = session.known_object();
@@ -66,19 +66,19 @@ ReconstructionInput input_of(const Session& session) {
           std::move(scans),
           known ? session.mesh().get() : nullptr,
           known ? &known->samples() : nullptr,
-          known ? known->visible() : std::span<const std::uint8_t>{},
+          known ? known->visible(stop) : std::span<const std::uint8_t>{},
           session.configuration().object.ground};
 }
 
 }  // namespace
 
 std::vector<ScanSurface> scan_surfaces(const Session& session, const Progress& progress, std::stop_token stop) {
-  return scan_surfaces(input_of(session), progress, std::move(stop));
+  return scan_surfaces(input_of(session, stop), progress, stop);
 }
 
 ScanSurface scan_surface(const Session& session, SurfaceSource source, const MapOfViews* wanted,
                          const Progress& progress, const std::stop_token& stop) {
-  ReconstructionInput input = input_of(session);
+  ReconstructionInput input = input_of(session, stop);
   input.true_mesh = nullptr;
   if (wanted) input.voxels = wanted->map.voxels(), input.prior = wanted->prior;
   return scan_surface(input, source, progress, stop);

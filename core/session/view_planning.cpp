@@ -40,7 +40,8 @@ class SurfaceLeft : public TrueSurface {
 
 /// What a planner is given besides the knowledge; valid as long as the setup and the state are.
 struct PlanningInput {
-  PlanningInput(const ScanSetup& scan, const ScanState& state)
+  /// @throws Stopped
+  PlanningInput(const ScanSetup& scan, const ScanState& state, const std::stop_token& stop = {})
       : setup{scan.configuration.planner,
               scan.configuration.seed,
               occlusion_reach(scan.configuration),
@@ -55,7 +56,7 @@ struct PlanningInput {
       surface = std::make_unique<SurfaceLeft<RecordedSurface>>(*scan.recorded,
                                                                scan.recorded->seen(frames_taken(state.known)));
     else if (state.evaluation)
-      surface = std::make_unique<SurfaceLeft<CandidateSight>>(scan.sight ? *scan.sight : scan.truth->sight(),
+      surface = std::make_unique<SurfaceLeft<CandidateSight>>(scan.sight ? *scan.sight : scan.truth->sight({}, stop),
                                                               state.evaluation->seen);
     setup.true_surface = surface.get();
   }
@@ -141,7 +142,7 @@ ScanState plan(const ScanSetup& setup, ScanState state, Robot& robot, std::span<
     auto candidates = reachable_candidates(state, is_said ? reach : robot.reach(robot.pose(), state.candidates));
     if (setup.configuration.registration.mode == RegistrationConfig::Mode::correct)
       ask_for_overlap(setup, state, candidates, stop);
-    const PlanningInput input(setup, state);
+    const PlanningInput input(setup, state, stop);
     Plan plan = setup.planner->plan(input.setup, state.known, state.candidates, candidates, stop);
     record->candidates = std::move(plan.candidates);
     record->ranking = std::move(plan.ranking);

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <thread>
 
+#include "core/progress/stopped.hpp"
+#include "core/session/scan_loop.hpp"
 #include "tests/unit/session/small_scan.hpp"
 
 namespace nextview {
@@ -117,6 +119,29 @@ TEST(StoppingASession, AFailureAtAnyMomentLeavesItAsBefore) {
     twins.untouched.step();
     EXPECT_TRUE(same_scan(twins.stopped, twins.untouched)) << c.planner.gain;
   }
+}
+
+/// While it is asked for what it can reach, somebody stops the plan.
+class StoppedRobot : public FreeFlyingCamera {
+ public:
+  using FreeFlyingCamera::FreeFlyingCamera;
+  std::vector<Reach> reach(const Pose& from, std::span<const View> views) override {
+    stop.request_stop();
+    return FreeFlyingCamera::reach(from, views);
+  }
+  std::stop_source stop;
+};
+
+// As after a session was opened again whose earlier views said it: it takes as long as several views of a large object.
+TEST(StoppingASession, WhatCandidatesSeeIsNotLookedForAfterwards) {
+  const Configuration c = kinds_of_sessions()[4];
+  Session scanned(c), opened(c);
+  scanned.step();
+  StoppedRobot robot(Pose::Identity());
+  EXPECT_THROW(plan(opened.setup(), scanned.state(), robot, {}, {}, robot.stop.get_token()), Stopped);
+  int told = 0;
+  opened.known_object()->sight([&](double, std::string_view) { ++told; });
+  EXPECT_GT(told, 0) << "it was looked for all the same";
 }
 
 TEST(StoppingASession, WhatCannotFitIsRefusedBeforeItIsTried) {
