@@ -71,6 +71,10 @@ void NewSurfaceField::fill_layer_of_blocks(const SurfaceEvidence& evidence, cons
 
 namespace {
 
+/// Rays whose areas are added up on their own, and the sums in their order: so that two views of many rays keep more
+/// than two threads busy, and a score and what explains it round alike.
+constexpr std::size_t rays_a_part = 1024;
+
 /// Some of a bundle's rays.
 struct RayRange {
   const RayBundle& bundle;
@@ -131,7 +135,6 @@ class Parts {
 std::vector<double> expected_new_surface(const NewSurfaceField& field, std::span<const Pose> views,
                                          const RayBundle& bundle, const NewSurfaceOptions& options,
                                          std::stop_token stop) {
-  constexpr std::size_t rays_a_part = 1024;  // so that two views of many rays keep more than two threads busy
   const std::size_t rays = bundle.directions.size(), parts = (rays + rays_a_part - 1) / rays_a_part;
   std::vector<double> of_parts(views.size() * parts, 0.0);
   tbb::parallel_for(std::size_t{0}, of_parts.size(), [&](std::size_t i) {
@@ -203,9 +206,12 @@ ScoreExplanation explain_new_surface(const NewSurfaceField& field, const VoxelGr
              part.contribution += found;
            });
   });
-  for (const ScoreExplanation::RayPart& part : explanation.rays)
-    for (const ScoreExplanation::Voxel& voxel : part.voxels)
-      explanation.value += voxel.contribution;  // as for the score, to round alike
+  for (std::size_t begin = 0; begin < explanation.rays.size(); begin += rays_a_part) {
+    double area = 0.0;
+    for (std::size_t i = begin; i < std::min(begin + rays_a_part, explanation.rays.size()); ++i)
+      for (const ScoreExplanation::Voxel& voxel : explanation.rays[i].voxels) area += voxel.contribution;
+    explanation.value += area;
+  }
   return explanation;
 }
 

@@ -189,6 +189,17 @@ TEST(NewSurface, BehindAnOccupiedVoxelThereIsNone) {
   EXPECT_GT(meet_it, 20);
 }
 
+TEST(NewSurface, ExplanationsOfManyRaysRoundAsTheScoreDoes) {
+  std::mt19937 random(5);
+  const MadeMap made = evidence_maps::random_map(random, {16, 14, 15}, 0.05, 0.5);
+  const NewSurfaceField field(made.evidence(), model_of(0.0, -3.0, -0.5));
+  const RayBundle many = small_bundle(64, 48);
+  for (const Pose& view : views_around(random, 8)) {
+    const ScoreExplanation why = explain_new_surface(field, made.map.grid(), made.map.voxels(), view, many, {});
+    EXPECT_EQ(why.value, expected_new_surface(field, {&view, 1}, many, {})[0]);
+  }
+}
+
 TEST(NewSurface, ExplanationsNameTheVoxelsAndSumToTheScore) {
   std::mt19937 random(4);
   const MadeMap made = evidence_maps::random_map(random, {16, 14, 15}, 0.05, 0.5);
