@@ -28,13 +28,14 @@ void SeenSurface::follow(std::span<const std::shared_ptr<const Scan>> scans) {
   tbb::parallel_for(scans_, scans.size(),
                     [&](std::size_t scan) { normals[scan] = viewed_normals(*scans[scan], stride(scan)); });
   auto cloud = std::make_shared<SeenCloud>(*cloud_);
-  for (; scans_ < scans.size(); ++scans_) {
-    const PointCloud& hits = scans[scans_]->hits;
-    for (std::size_t i = 0; i < hits.size(); i += stride(scans_)) cloud->points.push_back(hits[i]);
-    std::ranges::copy(normals[scans_], std::back_inserter(cloud->normals));
-    cloud->views.resize(cloud->points.size(), static_cast<std::uint16_t>(scans_));
+  for (std::size_t scan = scans_; scan < scans.size(); ++scan) {
+    const PointCloud& hits = scans[scan]->hits;
+    for (std::size_t i = 0; i < hits.size(); i += stride(scan)) cloud->points.push_back(hits[i]);
+    std::ranges::copy(normals[scan], std::back_inserter(cloud->normals));
+    cloud->views.resize(cloud->points.size(), static_cast<std::uint16_t>(scan));
   }
   cloud_ = std::move(cloud);
+  scans_ = scans.size();
 }
 
 void SeenSurface::compare(std::span<const std::shared_ptr<const Scan>> scans) {
@@ -45,8 +46,8 @@ void SeenSurface::compare(std::span<const std::shared_ptr<const Scan>> scans) {
   if (!missed_) missed_ = reference.nothing_seen;
   if (compared_ == scans_) return;
   PointCloud hits;
-  for (; compared_ < scans_; ++compared_)
-    hits.insert(hits.end(), scans[compared_]->hits.begin(), scans[compared_]->hits.end());
+  for (const auto& scan : scans.first(scans_).subspan(compared_))
+    hits.insert(hits.end(), scan->hits.begin(), scan->hits.end());
   missed_->add(hits);
   auto cloud = std::make_shared<SeenCloud>(*cloud_);
   const std::size_t known = cloud->distances.size();
@@ -55,6 +56,7 @@ void SeenSurface::compare(std::span<const std::shared_ptr<const Scan>> scans) {
     cloud->distances[i] = static_cast<float>((*reference.distance)(cloud->points[i]));
   });
   cloud_ = std::move(cloud);
+  compared_ = scans_;  // last: where memory runs out before, all of it is done again
 }
 
 std::shared_ptr<const MissedPicture> SeenSurface::missed() const {
