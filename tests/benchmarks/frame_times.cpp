@@ -132,12 +132,16 @@ class Window {
     return times;
   }
 
-  /// Frames that draw the scene in full quality.
+  /// Frames that draw the scene in full quality: those in which it comes to rest.
   FrameTimes frames_zooming(int count) {
     FrameTimes times;
     for (int i = 0; i < count; ++i) {
       interface_.run_script(parse_script(i % 2 ? "zoom 1\n" : "zoom -1\n"));
-      draw_frame(times);
+      while (!interface_.script_is_done() || !interface_.is_drawn_well()) {
+        FrameTimes frame;
+        draw_frame(frame);
+        if (interface_.script_is_done() && interface_.is_drawn_well()) append(times, frame);
+      }
     }
     settle();
     return times;

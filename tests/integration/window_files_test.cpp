@@ -40,6 +40,19 @@ TEST_F(WindowFiles, APictureIsWithoutWhatIsInFront) {
   EXPECT_GT(std::filesystem::file_size(file("menu.png")), 10'000u);
 }
 
+/// Though what it does between them is drawn with less care.
+TEST_F(WindowFiles, APictureThatAScriptWritesIsDrawnWell) {
+  User user(small_scan(), 640, 400, 0.5);
+  user.run("step\nstep\nlook-from 20 30\nsave-picture " + file("at_once.png") + "\n");
+  user.run("toggle-region\ntoggle-region\n");
+  user.run("save-picture " + file("at_rest.png") + "\n");
+  EXPECT_EQ(read_png(file("at_once.png")), read_png(file("at_rest.png")));
+  user.window().run_script(parse_script("zoom 1\nstep\n"));
+  user.window().draw(1.0 / 60);
+  EXPECT_FALSE(user.window().is_drawn_well()) << "the next line comes at once";
+  user.wait();
+}
+
 TEST_F(WindowFiles, LinesOfAScriptThatFailAreToldAndTheOthersDone) {
   User user(small_scan());
   std::vector<std::string> failures;

@@ -138,6 +138,7 @@ struct Interface::Parts {
   void ask_inspector();
   void ask_surface();
   bool by_hand() const;
+  bool script_goes_on() const;
   bool draw_scene();
   /// Of the session's worker, or of the turntable that is drawn.
   WorkerProgress progress() const;

@@ -78,6 +78,7 @@ std::vector<InputEvent> Interface::Parts::input_beside_demo(const std::vector<In
 
 /// With the window as it is at first, whatever its user likes.
 void Interface::Parts::begin_demo(std::vector<CommandCall> calls) {
+  if (motion_left > 0) bring_to_rest();
   before_demo = std::exchange(state, {});
   state.history = before_demo.history;
   state.text_scale = before_demo.text_scale;
