@@ -55,6 +55,7 @@ void Interface::Parts::draw_wanted_picture() {
   }
   scene_is_old = true;
   composer.forget();
+  if (state.picture) draw_fast(DrawingQuality::coarse);  // of a turntable others follow, and this one is soon gone
 }
 
 void Interface::Parts::draw_apart() {
