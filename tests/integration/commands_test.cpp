@@ -283,11 +283,11 @@ TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
 
 TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
   User user(coarse_scan(), width, height, scale);
-  user.run("reset-settings\n");
+  user.run_quickly("reset-settings\n");
   Configuration expected;
   expected.object = coarse_scan().object;
   EXPECT_EQ(to_toml(user.session().configuration), to_toml(expected));
-  user.run("undo\n");
+  user.run_quickly("undo\n");
   EXPECT_EQ(to_toml(user.session().configuration), to_toml(coarse_scan()));
 }
 

@@ -46,7 +46,7 @@ PictureBound bound() { return {0.03, 255, "times and progress differ from run to
 
 TEST(PanelPictures, CandidatesThenAViewThenARayOfIt) {
   User user(housing());
-  user.run("step\nstep\nstep\nselect-view 37\n");
+  user.run_quickly("step\nstep\nstep\nselect-view 37\n");
   show_sensor_settings(user);
   expect_screenshot("panel_candidates", user.look(), bound());
   user.run("select-view 32\npanel view\npanel layers\nzoom 3\n");
@@ -57,7 +57,7 @@ TEST(PanelPictures, CandidatesThenAViewThenARayOfIt) {
 
 TEST(PanelPictures, GibbsThenAVoxelOfIt) {
   User user(housing());
-  user.run("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
+  user.run_quickly("step\nstep\nstep\nrefine\npanel layers\nvoxel-colour probability\nzoom 5\n");
   const auto pixel = user.window().scene().project(nearest_voxel(user));
   user.run("voxel-map gibbs\nvoxel-colour difference\ntoggle-rays\ntoggle-cloud\n");
   let_notices_go(user);
@@ -72,7 +72,7 @@ TEST(PanelPictures, GibbsThenAVoxelOfIt) {
 
 TEST(PanelPictures, LogAndMissedSurface) {
   User user(housing());
-  user.run("toggle-octree\ntoggle-cloud\ntoggle-rays\n");  // first: they need not be drawn at each step
+  user.run_quickly("toggle-octree\ntoggle-cloud\ntoggle-rays\n");  // first: they need not be drawn at each step
   user.run("step\nstep\ntake-view 20\nstep\npanel log\ntoggle-missed\nzoom 4\n");
   expect_screenshot("panel_log", user.look(), bound());
 }
@@ -82,7 +82,7 @@ TEST(PanelPictures, ASectionThroughTheSurface) {
   c.termination.views = 6;
   c.termination.surface_left = 0.0;
   User user(c);
-  user.run("play\npanel layers\ntoggle-surface\ntoggle-views\nsection-axis x\nsecond-view octree\nframe\n");
+  user.run_quickly("play\npanel layers\ntoggle-surface\ntoggle-views\nsection-axis x\nsecond-view octree\nframe\n");
   user.run("wait until done\n");
   let_notices_go(user);
   expect_screenshot("panel_section", user.look(), bound());
@@ -108,8 +108,8 @@ TEST(PanelPictures, TimelineThenAComparison) {
   Configuration c = housing();
   c.termination.surface_left = 0.0;
   User user(c);
-  user.run("step\nstep\nstep\nstep\nrename-branch main \"by new surface\"\ngo-to-view 2\n");
-  user.run("branch \"by entropy\"\nset planner.gain average-entropy\nstep\nstep\nstep\n");
+  user.run_quickly("step\nstep\nstep\nstep\nrename-branch main \"by new surface\"\ngo-to-view 2\n");
+  user.run_quickly("branch \"by entropy\"\nset planner.gain average-entropy\nstep\nstep\nstep\n");
   user.run("toggle-rays\ntoggle-region\npanel timeline\n");
   expect_screenshot("panel_timeline", user.look(), bound());
   user.run("compare \"by new surface\"\ntoggle-views\ntoggle-octree\ntoggle-missed\nframe\n");
@@ -118,7 +118,7 @@ TEST(PanelPictures, TimelineThenAComparison) {
 
 TEST(PanelPictures, Palette) {
   User user(housing());
-  user.run("step\npalette\n");
+  user.run_quickly("step\npalette\n");
   user.write("view");
   user.wait();
   expect_screenshot("palette", user.look(), bound());

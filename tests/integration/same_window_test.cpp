@@ -30,7 +30,7 @@ class SameWindow : public InTemporaryFolder {
  protected:
   static Image after(const std::string& script, bool scene_alone = false) {
     User user(tiny_scan(), width, height, scale);
-    user.run(script);
+    user.run_quickly(script);
     return look(user, scene_alone);
   }
 };
@@ -76,16 +76,16 @@ TEST_F(SameWindow, AfterTheGraphicsCardWasReset) {
   for (const char* shown : {"panel view\nobject-style solid\n", "toggle-object\ntoggle-surface\nsection-axis x\ndark\n",
                             "panel candidates\nsecond-view octree\ntoggle-missed\n", "panel curves\ntoggle-octree\n"}) {
     User user(tiny_scan(), width, height, scale);
-    user.run(fmt::format("{}{}wait until done\n", lines, shown));
+    user.run_quickly(fmt::format("{}{}wait until done\n", lines, shown));
     const Image before = look(user, false);
     user.window().renew_target();
     const Image after = look(user, false);
     EXPECT_TRUE(before == after) << shown << compare(before, after).summary();
     EXPECT_EQ(user.target().gl_error(), 0u) << shown;
-    user.run("turn 30 0\nstep\nturn -30 0\nundo\n");  // with what is made for motion alone
+    user.run_quickly("turn 30 0\nstep\nturn -30 0\nundo\n");  // with what is made for motion alone
     const Image later = look(user, true);
     User other(tiny_scan(), width, height, scale);
-    other.run(fmt::format("{}{}wait until done\nturn 30 0\nstep\nturn -30 0\nundo\n", lines, shown));
+    other.run_quickly(fmt::format("{}{}wait until done\nturn 30 0\nstep\nturn -30 0\nundo\n", lines, shown));
     const Image never_lost = look(other, true);
     EXPECT_TRUE(later == never_lost) << shown << compare(later, never_lost).summary();
   }

@@ -47,19 +47,19 @@ class SceneRanges : public testing::Test {
 };
 
 TEST_F(SceneRanges, UtilitiesAreThoseOfTheCandidatesThatAreLeft) {
-  user_.run("step\nstep\nstep\n");
+  user_.run_quickly("step\nstep\nstep\n");
   const ValueRange now = utilities_left(user_.session());
   ASSERT_GT(now.first, 0) << "a taken candidate's 0 would not show";
   expect_utilities(now, false);
-  user_.run("lock-ranges\n");
+  user_.run_quickly("lock-ranges\n");
   expect_utilities(now, true);
-  user_.run("step\n");
+  user_.run_quickly("step\n");
   EXPECT_NE(utilities_left(user_.session()), now);
   expect_utilities(now, true);
 }
 
 TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
-  user_.run("step\ntoggle-cloud\ncloud-colour height\n");
+  user_.run_quickly("step\ntoggle-cloud\ncloud-colour height\n");
   const auto heights = [&] {
     const auto& points = user_.session().cloud->points;
     const auto [low, high] =
@@ -82,13 +82,13 @@ TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
   EXPECT_NEAR(shown().first, first.first, 1e-6);
   EXPECT_NEAR(shown().second, first.second, 1e-6);
   const double first_most = most();
-  user_.run("step\nstep\n");
+  user_.run_quickly("step\nstep\n");
   const ValueRange third = heights();
   ASSERT_NE(third, first) << "the scan tells nothing of this";
   EXPECT_NEAR(shown().second, third.second, 1e-6);
   EXPECT_NE(most(), first_most);
   const double locked_most = most();
-  user_.run("undo\nundo\nlock-ranges\nstep\nstep\n");
+  user_.run_quickly("undo\nundo\nlock-ranges\nstep\nstep\n");
   EXPECT_NEAR(shown().first, first.first, 1e-6);
   EXPECT_NEAR(shown().second, first.second, 1e-6);
   EXPECT_EQ(most(), first_most);
@@ -97,7 +97,7 @@ TEST_F(SceneRanges, FollowTheScanUnlessTheyAreLocked) {
 
 /// The rays of a view have the contributions of that view's own, whichever is looked at.
 TEST_F(SceneRanges, RaysAreThoseOfTheViewThatIsLookedAt) {
-  user_.run("step\nstep\n");
+  user_.run_quickly("step\nstep\n");
   const RaysLayer& rays = user_.window().scene().layers().rays();
   const auto box = [&] {
     Eigen::AlignedBox3d all;
@@ -110,7 +110,7 @@ TEST_F(SceneRanges, RaysAreThoseOfTheViewThatIsLookedAt) {
   int looked_at = 0;
   for (std::size_t k = 0; k < s.candidates.size(); ++k) {
     if (!s.available(k) || k == s.next_candidate) continue;
-    user_.run("select-view " + std::to_string(k) + "\n");
+    user_.run_quickly("select-view " + std::to_string(k) + "\n");
     Inspector inspector;
     const Inspection inspection = inspector.inspect(user_.worker().snapshot(), user_.window().state().selection);
     ASSERT_TRUE(inspection.view && inspection.view->explanation);
@@ -123,45 +123,45 @@ TEST_F(SceneRanges, RaysAreThoseOfTheViewThatIsLookedAt) {
     ++looked_at;
   }
   EXPECT_GT(looked_at, 2);
-  user_.run("select-next\n");
+  user_.run_quickly("select-next\n");
   EXPECT_TRUE(box().isApprox(of_next));
 }
 
 TEST_F(SceneRanges, ASliceShowsFewerVoxelsAndAnotherPlaceOthers) {
-  user_.run("step\nstep\n");
+  user_.run_quickly("step\nstep\n");
   const std::size_t all = user_.window().scene().voxel_faces();
-  user_.run("slice-axis z\n");
+  user_.run_quickly("slice-axis z\n");
   const std::size_t middle = user_.window().scene().voxel_faces();
   EXPECT_GT(middle, 0u);
   EXPECT_LT(middle, all);
-  user_.run("slice-at 0.6\n");
+  user_.run_quickly("slice-at 0.6\n");
   EXPECT_EQ(user_.window().scene().voxel_faces(), 0u) << "there is nothing above the object";
-  user_.run("slice-axis none\n");
+  user_.run_quickly("slice-axis none\n");
   EXPECT_EQ(user_.window().scene().voxel_faces(), all);
 }
 
 TEST_F(SceneRanges, ASelectionLastsAsLongAsWhatItIsOf) {
   using Kind = ViewSelection::Kind;
   const auto selection = [&] { return user_.window().state().selection; };
-  user_.run("step\nstep\nselect-view 3\ninspect-voxel 0 0 0\nstep\n");
+  user_.run_quickly("step\nstep\nselect-view 3\ninspect-voxel 0 0 0\nstep\n");
   EXPECT_TRUE(selection().view.is(Kind::candidate, 3)) << "a step leaves it";
   EXPECT_TRUE(selection().voxel);
-  user_.run("select-taken 3\ngo-to-view 2\n");
+  user_.run_quickly("select-taken 3\ngo-to-view 2\n");
   EXPECT_TRUE(selection().view == ViewSelection{}) << "a view that is no more";
   EXPECT_TRUE(selection().voxel);
-  user_.run("select-taken 2\ngo-to-view 3\n");
+  user_.run_quickly("select-taken 2\ngo-to-view 3\n");
   EXPECT_TRUE(selection().view.is(Kind::taken, 1));
-  user_.run("set seed 5\n");
+  user_.run_quickly("set seed 5\n");
   EXPECT_EQ(selection(), Selection{}) << "of another scan";
   EXPECT_EQ(user_.window().title(), "Nextview - sphere - view 0 of 4");
 }
 
 TEST_F(SceneRanges, ACandidateThatIsNoMoreIsNotLookedAt) {
   const auto selection = [&] { return user_.window().state().selection; };
-  user_.run("step\npanel view\nselect-view 7\n");
+  user_.run_quickly("step\npanel view\nselect-view 7\n");
   ASSERT_EQ(selection().candidate(), 7u);
   const auto session = user_.session().session;
-  user_.run("set views.count 6\n");
+  user_.run_quickly("set views.count 6\n");
   ASSERT_EQ(user_.session().session, session) << "the scan goes on";
   ASSERT_LT(user_.session().candidates.size(), 8u);
   EXPECT_TRUE(selection().view == ViewSelection{});
@@ -169,7 +169,7 @@ TEST_F(SceneRanges, ACandidateThatIsNoMoreIsNotLookedAt) {
 
 /// Lines that only differ in their values, as of a slider, are one; those that add up, or name a thing, are not.
 TEST_F(SceneRanges, TheScriptHasWhatWasDoneAndNothingElse) {
-  user_.run(
+  user_.run_quickly(
       "step\nzoom 1\nzoom 1\nthreshold 0.2\nthreshold 0.4\nslice-axis x\nslice-at 0.1\nslice-at 0.2\nslice-at 0.2 0.1\n"
       "select-view 1\nselect-view 2\npalette\npalette\nshortcuts\nshortcuts\npause-refinement\nselect-view "
       "99\nframe\n");

@@ -16,7 +16,7 @@ class User {
   explicit User(const Configuration& configuration, int width = 1280, int height = 800, double scale = 1.0)
       : target_(width, height), interface_(target_, worker_, inspector_, scale) {
     interface_.open(configuration);
-    wait();
+    wait_for_news();  // most look at a picture only once they have done something
   }
 
   /// Looks at frames until nothing new comes and both workers are idle, or a refinement is paused, and all edges are

@@ -26,47 +26,47 @@ class WindowBranches : public testing::Test {
 };
 
 TEST_F(WindowBranches, AClickOnAViewGoesThereAndADragAlong) {
-  user_.run("step\nstep\nstep\npanel timeline\n");
+  user_.run_quickly("step\nstep\nstep\npanel timeline\n");
   const Point second = cell(0, 2);
   user_.click(second.x, second.y);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(views(), 2u);
   user_.move(second.x, second.y);
   user_.press();
-  user_.wait();
+  user_.wait_for_news();
   for (const std::size_t view : {1u, 2u, 3u}) {
     user_.move(cell(0, view).x, cell(0, view).y);
-    user_.wait();
+    user_.wait_for_news();
     EXPECT_EQ(views(), view);
   }
   user_.release();
-  user_.wait();
+  user_.wait_for_news();
   user_.type(Key::page_up);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(views(), 2u);
-  user_.run("step\n");
+  user_.run_quickly("step\n");
   EXPECT_EQ(user_.session().timeline->branches.all.size(), 2u);
   user_.click(cell(0, 3).x, cell(0, 3).y);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(user_.session().timeline->branches.current().name, "main") << "a click on another row goes to its branch";
   EXPECT_EQ(views(), 3u);
 }
 
 TEST_F(WindowBranches, SpaceStepsAfterPageUpWhateverPanelHasTheFocus) {
-  user_.run("step\nstep\npanel timeline\n");
+  user_.run_quickly("step\nstep\npanel timeline\n");
   user_.click(bottom().x + bottom().width - 20, bottom().y + bottom().height - 20);  // where nothing is, in the panel
-  user_.wait();
+  user_.wait_for_news();
   user_.type(Key::page_up);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(views(), 1u);
   user_.type(Key::space);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(views(), 2u) << "no item of the panel was pressed instead";
   EXPECT_EQ(user_.session().timeline->branches.all.size(), 2u);
 }
 
 TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
-  user_.run("step\nstep\nbranch other\nstep\n");
+  user_.run_quickly("step\nstep\nbranch other\nstep\n");
   const Rectangle scene = user_.window().layout().scene;
   EXPECT_EQ(user_.window().scene().rectangle(), scene);
   user_.run("compare main\n");
@@ -93,10 +93,10 @@ TEST_F(WindowBranches, TheComparedOneTakesHalfOfTheSceneAndMovesWithIt) {
 }
 
 TEST_F(WindowBranches, TheObjectIsSeenWholeWhereTheSceneGetsNarrower) {
-  user_.run("step\nstep\nbranch other\nstep\n");
+  user_.run_quickly("step\nstep\nbranch other\nstep\n");
   SceneView& scene = user_.window().scene();
   const Rectangle place = scene.rectangle();
-  user_.run("turn 30 10\n");  // framed no more
+  user_.run_quickly("turn 30 10\n");  // framed no more
   const auto is_whole = [&] {
     const auto& vertices = user_.session().mesh->vertices;
     return std::ranges::all_of(vertices, [&](const Eigen::Vector3f& vertex) {
@@ -105,53 +105,53 @@ TEST_F(WindowBranches, TheObjectIsSeenWholeWhereTheSceneGetsNarrower) {
     });
   };
   ASSERT_TRUE(is_whole());
-  user_.run("compare main\n");
+  user_.run_quickly("compare main\n");
   EXPECT_LT(scene.rectangle().width, place.width);
   EXPECT_TRUE(is_whole());
 }
 
 /// It would be made of one of the two only.
 TEST_F(WindowBranches, TheReconstructedSurfaceIsNotCompared) {
-  user_.run("step\nstep\nbranch other\nstep\ntoggle-surface\ncompare main\n");
+  user_.run_quickly("step\nstep\nbranch other\nstep\ntoggle-surface\ncompare main\n");
   const LayerChoice& layers = user_.window().state().layers;
   EXPECT_FALSE(layers.surface);
   EXPECT_TRUE(layers.octree);
   user_.type(key('9'));
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_FALSE(layers.surface);
   EXPECT_THAT(user_.worker().log().entries()->back().text, HasSubstr("stop comparing first"));
-  user_.run("stop-comparing\n");
+  user_.run_quickly("stop-comparing\n");
   EXPECT_TRUE(layers.surface) << "it was shown before";
   EXPECT_FALSE(layers.octree);
 }
 
 TEST_F(WindowBranches, ASettingThatStartsOverAsksAPersonFirst) {
-  user_.run("step\nstep\n");
+  user_.run_quickly("step\nstep\n");
   user_.window().ask(command::set("map.resolution", "0.05"));
   EXPECT_THAT(question(), HasSubstr("Voxel = 50 mm starts the scan over. Its 2 views are set aside: undo brings "
                                     "them back."));
   user_.type(Key::escape);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(question(), "");
   EXPECT_EQ(views(), 2u);
   user_.window().ask(command::set("map.resolution", "0.05"));
-  user_.run("answer \"Start over\"\n");
+  user_.run_quickly("answer \"Start over\"\n");
   EXPECT_EQ(views(), 0u);
-  user_.run("undo\n");
+  user_.run_quickly("undo\n");
   EXPECT_EQ(views(), 2u);
   user_.window().ask(command::set("map.resolution", "0.01 mm"));
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(question(), "") << "it is refused before anything is asked";
   user_.window().ask(command::set("planner.gain", "random"));
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(question(), "") << "it keeps the scan";
   EXPECT_EQ(user_.session().configuration.planner.gain, "random");
-  user_.run("previous-view\nstep\nprevious-view\nprevious-view\n");
+  user_.run_quickly("previous-view\nstep\nprevious-view\nprevious-view\n");
   EXPECT_EQ(views(), 0u);
   user_.window().ask(command::set("map.resolution", "0.05"));
   EXPECT_THAT(question(), HasSubstr("Its 3 views are set aside")) << "of both branches, wherever the scan stands";
   user_.type(Key::escape);
-  user_.run("set map.resolution 0.05\n");
+  user_.run_quickly("set map.resolution 0.05\n");
   EXPECT_EQ(views(), 0u) << "a script is not asked";
 }
 
@@ -159,20 +159,20 @@ TEST_F(WindowBranches, QuitAsksWhereViewsAreKeptNowhere) {
   user_.window().ask_to_quit();
   EXPECT_TRUE(user_.window().wants_to_quit()) << "nothing is lost";
   User other(small_scan());
-  other.run("step\n");
+  other.run_quickly("step\n");
   other.window().ask_to_quit();
-  other.wait();
+  other.wait_for_news();
   EXPECT_FALSE(other.window().wants_to_quit());
   EXPECT_THAT(other.window().question(), HasSubstr("The view is kept nowhere"));
   other.window().ask(command::answer("Export…"));
-  other.wait();
+  other.wait_for_news();
   EXPECT_EQ(other.window().state().file_for, "export") << "it is offered at once";
   other.type(Key::escape);
-  other.wait();
+  other.wait_for_news();
   other.window().ask_to_quit();
-  other.wait();
+  other.wait_for_news();
   other.type(Key::escape);
-  other.wait();
+  other.wait_for_news();
   EXPECT_FALSE(other.window().wants_to_quit());
   other.window().ask_to_quit();
   other.window().ask_to_quit();
@@ -180,23 +180,23 @@ TEST_F(WindowBranches, QuitAsksWhereViewsAreKeptNowhere) {
 }
 
 TEST_F(WindowBranches, UndoTakesBackWhatWasDoneLast) {
-  user_.run("step\nselect-view 3\nselect-view 4\n");
+  user_.run_quickly("step\nselect-view 3\nselect-view 4\n");
   const auto selected = [&] { return user_.window().state().selection.candidate(); };
-  user_.run("undo\n");
+  user_.run_quickly("undo\n");
   EXPECT_EQ(selected(), 3u);
-  user_.run("undo\n");
+  user_.run_quickly("undo\n");
   EXPECT_EQ(selected(), std::nullopt);
-  user_.run("redo\nredo\n");
+  user_.run_quickly("redo\nredo\n");
   EXPECT_EQ(selected(), 4u);
   EXPECT_EQ(views(), 1u);
-  user_.run("undo\nundo\nundo\n");
+  user_.run_quickly("undo\nundo\nundo\n");
   EXPECT_EQ(views(), 0u);
 }
 
 TEST_F(WindowBranches, ASavedScriptLeavesOutWhatFailed) {
-  user_.run("step\n");
+  user_.run_quickly("step\n");
   user_.window().run_script(parse_script("open \"/no/such file.ply\"\nstep\n"));
-  user_.wait();
+  user_.wait_for_news();
   for (const std::string& line : user_.window().state().history.lines)
     EXPECT_EQ(line.find("no such file"), line.npos) << line;
   EXPECT_THAT(user_.window().state().history.lines, testing::Contains("step").Times(2));

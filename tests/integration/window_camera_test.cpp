@@ -65,14 +65,14 @@ TEST_F(WindowCamera, EdgesAreRoughWhileItMovesAndSmoothOnceItRests) {
 
 /// While it is looked at the overlay draws it; once it is next, the scene does.
 TEST_F(WindowCamera, ACustomViewIsDrawnOnce) {
-  user_.run("undo\ncustom-view\nlook-from 0 80\n");
+  user_.run_quickly("undo\ncustom-view\nlook-from 0 80\n");
   const auto names = [&] {
     std::size_t count = 0;
     for (const Label& label : scene().layers().views().labels()) count += label.text == "custom view";
     return count;
   };
   EXPECT_EQ(names(), 0u);
-  user_.run("step\ncustom-view\nlook-from 0 10\ntake-custom-view\n");
+  user_.run_quickly("step\ncustom-view\nlook-from 0 10\ntake-custom-view\n");
   ASSERT_TRUE(user_.session().custom_next_view);
   EXPECT_EQ(names(), 1u);
 }
@@ -113,12 +113,12 @@ TEST(WindowFraming, TheAxesStandFreeOfThePartFromEverySide) {
   Configuration box = small_scan();
   box.object.file = "box";
   User user(box);
-  user.run("step\nstep\n");
+  user.run_quickly("step\nstep\n");
   SceneView& scene = user.window().scene();
   for (const std::string with : {"second-view none", "second-view cloud", "second-view none\ntoggle-legends"}) {
-    user.run(with + "\n");
+    user.run_quickly(with + "\n");
     for (const char* side : {"front", "right", "back", "left", "top", "bottom", "usual"}) {
-      user.run(fmt::format("standard-view {}\n", side));
+      user.run_quickly(fmt::format("standard-view {}\n", side));
       const Rectangle& r = scene.rectangle();
       int covered = 0;
       for (const Eigen::Vector3f& vertex : user.session().mesh->vertices)
@@ -135,7 +135,7 @@ TEST(WindowFraming, TheAxesStandFreeOfThePartFromEverySide) {
 /// Its region is as large as that of the scan that it is of, more than twice as wide as the object.
 TEST_F(WindowCamera, ARecordingIsFramedOnWhatItsFramesShowBeforeAnyIsTaken) {
   const TemporaryFolder folder;
-  user_.run("step\nexport " + (folder.path() / "scan").string() + "\n");
+  user_.run_quickly("step\nexport " + (folder.path() / "scan").string() + "\n");
   Configuration recorded;
   recorded.recorded.folder = folder.path() / "scan";
   User other(recorded);

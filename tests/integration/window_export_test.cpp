@@ -30,9 +30,9 @@ int transparent_pixels(const Image& image) {
 
 TEST_F(WindowExport, FilesAreThoseOfTheWholeScan) {
   User user(small_scan());
-  user.run("step\nstep\nexport " + file("whole") + "\nexport-cloud " + file("c.ply") + "\nexport-map " + file("m.ot") +
-           "\nexport-map " + file("m.bt") + "\nexport-views " + file("v.csv") + "\nexport-curves " + file("s.csv") +
-           "\nexport-surface " + file("s.stl") + " cloud all\n");
+  user.run_quickly("step\nstep\nexport " + file("whole") + "\nexport-cloud " + file("c.ply") + "\nexport-map " +
+                   file("m.ot") + "\nexport-map " + file("m.bt") + "\nexport-views " + file("v.csv") +
+                   "\nexport-curves " + file("s.csv") + "\nexport-surface " + file("s.stl") + " cloud all\n");
   const std::pair<const char*, const char*> pairs[] = {
       {"c.ply", "cloud.ply"}, {"m.ot", "map.ot"}, {"m.bt", "map.bt"}, {"v.csv", "views.csv"}, {"s.csv", "steps.csv"}};
   for (const auto& [one, of_all] : pairs)
@@ -42,10 +42,11 @@ TEST_F(WindowExport, FilesAreThoseOfTheWholeScan) {
 
 TEST_F(WindowExport, TheMapIsTheOneThatIsShown) {
   User user(small_scan());
-  user.run("step\nstep\nexport-map " + file("before.ot") + "\nrefine 2 20\nvoxel-map conventional\nexport-map " +
-           file("conventional.ot") + "\nexport-surface " + file("conventional.ply") + " map\nvoxel-map gibbs\n");
-  user.run("export-map " + file("shown.ot") + "\nexport-map " + file("named.ot") + " conventional\nexport-surface " +
-           file("gibbs.ply") + " map\nexport " + file("whole") + "\n");
+  user.run_quickly("step\nstep\nexport-map " + file("before.ot") +
+                   "\nrefine 2 20\nvoxel-map conventional\nexport-map " + file("conventional.ot") +
+                   "\nexport-surface " + file("conventional.ply") + " map\nvoxel-map gibbs\n");
+  user.run_quickly("export-map " + file("shown.ot") + "\nexport-map " + file("named.ot") +
+                   " conventional\nexport-surface " + file("gibbs.ply") + " map\nexport " + file("whole") + "\n");
   EXPECT_EQ(read_file(file("conventional.ot")) == read_file(file("before.ot")), true);
   EXPECT_EQ(read_file(file("named.ot")) == read_file(file("before.ot")), true);
   EXPECT_EQ(read_file(file("shown.ot")) == read_file(folder_ / "whole" / "posterior.ot"), true);
@@ -57,16 +58,16 @@ TEST_F(WindowExport, TheSurfaceIsThatOfTheMapThatIsShownAlsoWhereViewsArePlanned
   Configuration configuration = small_scan();
   configuration.planner.gain = "gibbs";
   User user(configuration);
-  user.run("step\nstep\nvoxel-map conventional\nexport-surface " + file("conventional.ply") +
-           " map\nvoxel-map gibbs\nexport-surface " + file("gibbs.ply") + " map\n");
+  user.run_quickly("step\nstep\nvoxel-map conventional\nexport-surface " + file("conventional.ply") +
+                   " map\nvoxel-map gibbs\nexport-surface " + file("gibbs.ply") + " map\n");
   EXPECT_EQ(read_file(file("gibbs.ply")) == read_file(file("conventional.ply")), false);
 }
 
 TEST_F(WindowExport, TheSurfaceIsTheOneThatIsShown) {
   User user(small_scan());
-  user.run("step\nstep\nexport-surface " + file("usual.ply") + "\nexport-surface " + file("map.ply") +
-           " map\nexport-surface " + file("cloud.ply") + " cloud\ntoggle-surface\nsurface-of cloud\nexport-surface " +
-           file("shown.ply") + "\n");
+  user.run_quickly("step\nstep\nexport-surface " + file("usual.ply") + "\nexport-surface " + file("map.ply") +
+                   " map\nexport-surface " + file("cloud.ply") +
+                   " cloud\ntoggle-surface\nsurface-of cloud\nexport-surface " + file("shown.ply") + "\n");
   EXPECT_EQ(read_file(file("usual.ply")) == read_file(file("map.ply")), true);
   EXPECT_EQ(read_file(file("shown.ply")) == read_file(file("cloud.ply")), true);
   EXPECT_EQ(read_file(file("cloud.ply")) == read_file(file("map.ply")), false);
@@ -74,18 +75,18 @@ TEST_F(WindowExport, TheSurfaceIsTheOneThatIsShown) {
 
 TEST_F(WindowExport, WithoutAGibbsMapThereIsNoneToExport) {
   User user(small_scan());
-  user.run("step\nexport-map " + file("none.ot") + " gibbs\n");
+  user.run_quickly("step\nexport-map " + file("none.ot") + " gibbs\n");
   EXPECT_FALSE(fs::exists(file("none.ot")));
-  user.run("voxel-map gibbs\nexport-map " + file("shown.ot") + "\n");
+  user.run_quickly("voxel-map gibbs\nexport-map " + file("shown.ot") + "\n");
   EXPECT_TRUE(fs::exists(file("shown.ot"))) << "the conventional one is shown as long as there is no other";
 }
 
 TEST_F(WindowExport, TheScenesPictureHasItsSizeAndLeavesTheWindowAsItWas) {
   User user(small_scan());
-  user.run("step\nsave-picture " + file("before.png") + "\npalette\n");
-  user.run("export-picture " + file("scene.png") + "\nexport-picture " + file("large.png") +
-           " 1600x900 transparent\nexport-curves " + file("curves.png") + " 700x500\n");
-  user.run("palette\nsave-picture " + file("after.png") + "\n");
+  user.run_quickly("step\nsave-picture " + file("before.png") + "\npalette\n");
+  user.run_quickly("export-picture " + file("scene.png") + "\nexport-picture " + file("large.png") +
+                   " 1600x900 transparent\nexport-curves " + file("curves.png") + " 700x500\n");
+  user.run_quickly("palette\nsave-picture " + file("after.png") + "\n");
   const Rectangle scene = user.window().layout().scene;
   EXPECT_EQ(picture("scene.png").width, int(scene.width));
   EXPECT_EQ(picture("scene.png").height, int(scene.height));
@@ -99,16 +100,16 @@ TEST_F(WindowExport, TheScenesPictureHasItsSizeAndLeavesTheWindowAsItWas) {
 
 TEST_F(WindowExport, TheWindowsPictureHasAnySizeAndLeavesTheWindowAsItWas) {
   User user(small_scan());
-  user.run("step\nsave-picture " + file("before.png") + "\n");
-  user.run("save-picture " + file("large.png") + " 2000x1300\nsave-picture " + file("least.png") +
-           " 16x16\nsave-picture " + file("after.png") + "\n");
+  user.run_quickly("step\nsave-picture " + file("before.png") + "\n");
+  user.run_quickly("save-picture " + file("large.png") + " 2000x1300\nsave-picture " + file("least.png") +
+                   " 16x16\nsave-picture " + file("after.png") + "\n");
   const Image before = picture("before.png"), large = picture("large.png");
   EXPECT_EQ(large.width, 2000);
   EXPECT_EQ(large.height, 1300);
   EXPECT_EQ(picture("least.png").width, 16);
   EXPECT_EQ(picture("after.png"), before);
   User wide(small_scan(), 2000, 1300);
-  wide.run("step\nsave-picture " + file("wide.png") + "\n");
+  wide.run_quickly("step\nsave-picture " + file("wide.png") + "\n");
   const Image in_such_a_window = picture("wide.png");
   const auto menus = std::size_t(large.width) * 4 * 30;
   EXPECT_TRUE(std::equal(large.rgba.begin(), large.rgba.begin() + std::ptrdiff_t(menus), in_such_a_window.rgba.begin()))
@@ -118,7 +119,7 @@ TEST_F(WindowExport, TheWindowsPictureHasAnySizeAndLeavesTheWindowAsItWas) {
 /// The picture is that part of the window, where no panel's notices lie on it, to the pixel.
 TEST_F(WindowExport, TheScenesPictureIsWhatTheWindowShows) {
   User user(small_scan());
-  user.run("step\nexport-picture " + file("scene.png") + "\nsave-picture " + file("window.png") + "\n");
+  user.run_quickly("step\nexport-picture " + file("scene.png") + "\nsave-picture " + file("window.png") + "\n");
   const Rectangle r = user.window().layout().scene;
   const Image scene = picture("scene.png"), window = picture("window.png");
   int different = 0;
@@ -133,21 +134,21 @@ TEST_F(WindowExport, TheScenesPictureIsWhatTheWindowShows) {
 
 TEST_F(WindowExport, PicturesCarryTheConfigurationAndOpenWithIt) {
   User user(small_scan());
-  user.run("step\nset termination.views 7\nexport-picture " + file("scene.png") + "\nsave-picture " +
-           file("window.png") + "\nexport-curves " + file("curves.png") + "\n");
+  user.run_quickly("step\nset termination.views 7\nexport-picture " + file("scene.png") + "\nsave-picture " +
+                   file("window.png") + "\nexport-curves " + file("curves.png") + "\n");
   for (const char* name : {"scene.png", "window.png", "curves.png"}) {
     const Configuration carried = configuration_of(png_configuration(file(name)), file(name));
     EXPECT_EQ(to_toml(carried), to_toml(user.session().configuration)) << name;
   }
-  user.run("set termination.views 3\nset map.resolution 0.04\nopen " + file("scene.png") + "\n");
+  user.run_quickly("set termination.views 3\nset map.resolution 0.04\nopen " + file("scene.png") + "\n");
   EXPECT_EQ(user.session().configuration.termination.views, 7);
   EXPECT_EQ(user.session().configuration.map.resolution, 0.02);
 }
 
 TEST_F(WindowExport, ATurntableGoesAllTheWayAroundAndCanBeCancelled) {
   User user(small_scan());
-  user.run("step\nexport-picture " + file("start.png") + " 320x200\nexport-turntable " + file("turn") +
-           " 4 320x200\nexport-turntable " + file("half") + " 2 320x200\n");
+  user.run_quickly("step\nexport-picture " + file("start.png") + " 320x200\nexport-turntable " + file("turn") +
+                   " 4 320x200\nexport-turntable " + file("half") + " 2 320x200\n");
   std::vector<Image> frames;
   for (int k = 1; k <= 4; ++k) frames.push_back(picture("turn/" + frame_name(k)));
   EXPECT_EQ(frames[0], picture("start.png"));
@@ -160,7 +161,7 @@ TEST_F(WindowExport, ATurntableGoesAllTheWayAroundAndCanBeCancelled) {
   ASSERT_TRUE(user.window().state().picture.has_value());
   user.type(Key::escape);
   user.window().run_script(parse_script("cancel\n"));
-  user.wait();
+  user.wait_for_news();
   EXPECT_FALSE(user.window().state().picture.has_value());
   EXPECT_LT(std::distance(fs::directory_iterator(file("long")), fs::directory_iterator()), 200);
 }
@@ -171,9 +172,10 @@ TEST_F(WindowExport, WhatCannotBeWrittenIsToldAndTheWindowGoesOn) {
   user.window().script().set_on_failure([&](const ScriptFailure& f) { failures.push_back(f.reason); });
   fs::create_directories(folder_ / "mine");
   std::ofstream(folder_ / "mine" / "notes.txt") << "notes";
-  user.run("export-cloud " + file("c.ply") + "\nstep\nexport-cloud " + file("c.xyz") + "\nexport-picture " +
-           file("p.jpg") + "\nexport-picture " + file("p.png") + " huge\nexport-picture /proc/no.png\nexport-cloud " +
-           "/proc/no.ply\nexport-turntable " + file("mine") + "\nexport-curves " + file("c.svg") + "\n");
+  user.run_quickly("export-cloud " + file("c.ply") + "\nstep\nexport-cloud " + file("c.xyz") + "\nexport-picture " +
+                   file("p.jpg") + "\nexport-picture " + file("p.png") +
+                   " huge\nexport-picture /proc/no.png\nexport-cloud " + "/proc/no.ply\nexport-turntable " +
+                   file("mine") + "\nexport-curves " + file("c.svg") + "\n");
   ASSERT_EQ(failures.size(), 7u) << testing::PrintToString(failures);
   EXPECT_EQ(failures[0], "export-cloud: take a view first");
   EXPECT_THAT(failures[1], HasSubstr("c.xyz: a cloud can be written as .ply or .pcd"));

@@ -58,8 +58,9 @@ TEST_F(WindowFiles, LinesOfAScriptThatFailAreToldAndTheOthersDone) {
   std::vector<std::string> failures;
   user.window().script().set_on_failure(
       [&](const ScriptFailure& f) { failures.push_back(std::to_string(f.line) + " " + f.reason); });
-  user.run("step\n\nexport /proc/no/such\nopen /no/such/file.ply\n# a comment\ntake-view 999\nstep\nsave-picture " +
-           file("no/picture.png") + "\nsave-script /proc/no/script\nundo\nset sensor.max_range -1\nstep\n");
+  user.run_quickly(
+      "step\n\nexport /proc/no/such\nopen /no/such/file.ply\n# a comment\ntake-view 999\nstep\nsave-picture " +
+      file("no/picture.png") + "\nsave-script /proc/no/script\nundo\nset sensor.max_range -1\nstep\n");
   ASSERT_EQ(failures.size(), 6u) << testing::PrintToString(failures);
   EXPECT_EQ(failures[0].substr(0, 10), "3 export: ");
   EXPECT_EQ(failures[1].substr(0, 8), "4 open: ");
@@ -78,12 +79,12 @@ TEST_F(WindowFiles, WhatFailedIsToldUntilSomethingElseIsDone) {
     const WorkerProgress rest;
     return command::dismiss.available({user.session(), rest, user.window().state()});
   };
-  user.run("step\n");
+  user.run_quickly("step\n");
   EXPECT_FALSE(is_told());
   for (const std::string& other : {"export-picture " + file("p.png"), "export-cloud " + file("c.ply")}) {
-    user.run("open /no/such/file.ply\n");
+    user.run_quickly("open /no/such/file.ply\n");
     EXPECT_TRUE(is_told());
-    user.run(other + "\n");
+    user.run_quickly(other + "\n");
     EXPECT_FALSE(is_told()) << other;
   }
 }
@@ -100,18 +101,18 @@ TEST_F(WindowFiles, OfSeveralFilesThatAreDroppedItIsSaidWhichIsOpened) {
 
 TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
   User user(small_scan());
-  user.run("step\nstep\n");
+  user.run_quickly("step\nstep\n");
   write_file(folder_ / "wrong.toml", "[map]\nresolutoin = 0.01\n");
   user.drop(file("wrong.toml"));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.window().question(), "") << "it is refused";
   write_file(folder_ / "gone.toml", "[object]\nfile = \"/no/such/part.stl\"\n");
   user.drop(file("gone.toml"));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.window().question(), "") << "what it scans is not there";
   write_file(folder_ / "mine.toml", "[sensor]\nrange_noise = 0.001\n");
   user.drop(file("mine.toml"));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.window().question(),
             "Taking the settings of mine.toml starts the scan over. Its 2 views are set "
             "aside: undo brings them back.");
@@ -121,16 +122,16 @@ TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
 /// Who says that the Gibbs map may go for a file is not to hear then that the file is broken.
 TEST_F(WindowFiles, AMeshThatIsCutOffAsksNothingAndLosesNothing) {
   User user(small_scan());
-  user.run("step\nrefine 2 8\n");
+  user.run_quickly("step\nrefine 2 8\n");
   write_file(folder_ / "cut.stl", "solid cut\n");
   user.drop(file("cut.stl"));
-  user.wait();
+  user.wait_for_news();
   EXPECT_EQ(user.window().question(), "");
   EXPECT_NE(user.session().message.find("cut.stl: is truncated"), std::string::npos) << user.session().message;
   EXPECT_EQ(user.session().records.size(), 1u);
   EXPECT_EQ(user.session().gibbs_lost, 1u) << "it is still there";
   user.drop("box");
-  user.wait();
+  user.wait_for_news();
   EXPECT_NE(user.window().question(), "");
   EXPECT_EQ(user.session().object_name, "sphere");
 }
@@ -138,12 +139,12 @@ TEST_F(WindowFiles, AMeshThatIsCutOffAsksNothingAndLosesNothing) {
 TEST_F(WindowFiles, AMapAloneFillsTheSceneAndHasNoFirstSteps) {
   User user(small_scan());
   user.window().show_guide(true);
-  user.run("step\nexport-map " + file("map.ot") + "\n");
+  user.run_quickly("step\nexport-map " + file("map.ot") + "\n");
   SceneView& scene = user.window().scene();
   const auto distance = [&] { return (scene.camera_pose().translation() - user.session().grid.box().center()).norm(); };
-  user.run("open " + file("map.ot") + "\n");
+  user.run_quickly("open " + file("map.ot") + "\n");
   const double opened = distance();
-  user.run("frame all\n");
+  user.run_quickly("frame all\n");
   EXPECT_NEAR(opened, distance(), 1e-6) << "its region is much larger";
   const ImGuiWindow* const guide = ImGui::FindWindowByName("First steps");
   EXPECT_FALSE(guide && guide->WasActive) << "there is no first view to be taken";
@@ -160,7 +161,7 @@ TEST(Window, AScriptThatEndsTooEarlyHasFailed) {
   EXPECT_FALSE(lines.empty());
   EXPECT_LE(lines.size(), 2u);
   EXPECT_TRUE(user.window().script_is_done());
-  user.wait();
+  user.wait_for_news();
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ TEST(Window, ADragThatBeganInTheSceneGoesOnOverPanels) {
 
 TEST(Window, ADragThatBeganOnAPanelLeavesTheCameraAlone) {
   User user(small_scan());
+  user.wait();
   const Layout layout = user.window().layout();
   const Point panel = middle(layout.left), scene = middle(layout.scene);
   const std::size_t drawings = user.window().scene_drawings();
@@ -94,6 +95,7 @@ void rest(User& user) {
 
 TEST(Window, ATooltipAppearsBesideAPointerThatRests) {
   User user(small_scan());
+  user.wait();
   const Layout layout = user.window().layout();
   const Image before = user.look();
   const Point step = step_button(layout), label{layout.left.x + 30, layout.left.y + 32 + 10 + 12};
@@ -111,6 +113,7 @@ TEST(Window, ATooltipAppearsBesideAPointerThatRests) {
 
 TEST(Window, ATooltipGoesWithAKeyUntilThePointerMoves) {
   User user(small_scan());
+  user.wait();
   const Layout layout = user.window().layout();
   const Image before = user.look();
   const Point step = step_button(layout);
@@ -150,12 +153,12 @@ std::string log_of(User& user) {
 
 TEST(Window, AViewOfOnesOwnSeesTheObject) {
   User user(small_scan());
-  user.run("step\nzoom -4\ncustom-view\n");
+  user.run_quickly("step\nzoom -4\ncustom-view\n");
   EXPECT_NE(log_of(user).find("Your view is moved"), std::string::npos) << log_of(user);
-  user.run("take-custom-view\nstep\n");
+  user.run_quickly("take-custom-view\nstep\n");
   EXPECT_GT(user.session().records.back().points, 100u);
   EXPECT_EQ(log_of(user).find("would measure nothing"), std::string::npos);
-  user.run("custom-view 0.6 0 0 2 0 0\n");
+  user.run_quickly("custom-view 0.6 0 0 2 0 0\n");
   EXPECT_NE(log_of(user).find("Your view would measure nothing: it looks past the object"), std::string::npos);
 }
 

@@ -19,18 +19,18 @@ Point pixel_of(User& user, const Vector3& place) {
 
 class WindowRegion : public testing::Test {
  protected:
-  WindowRegion() { user_.run("step\nedit-region\n"); }
+  WindowRegion() { user_.run_quickly("step\nedit-region\n"); }
   /// Presses on the handle and moves it there, without letting go.
   void drag(std::size_t handle, const Vector3& by) {
     const Vector3 place = handle_place(region(user_), handle);
     const Point from = pixel_of(user_, place), to = pixel_of(user_, place + by);
     user_.move(from.x, from.y);
     user_.press();
-    user_.wait();
+    user_.wait_for_news();
     user_.move((from.x + to.x) / 2, (from.y + to.y) / 2);
-    user_.wait();
+    user_.wait_for_news();
     user_.move(to.x, to.y);
-    user_.wait();
+    user_.wait_for_news();
   }
 
   User user_{small_scan()};
@@ -43,10 +43,10 @@ TEST_F(WindowRegion, AFaceThatIsLetGoIsTheSettingAndStartsOver) {
   EXPECT_EQ(user_.session().records.size(), 1u) << "it is not let go";
   EXPECT_TRUE(user_.window().scene().camera_pose().isApprox(camera)) << "the camera is not what is dragged";
   user_.release();
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(user_.session().records.size(), 1u) << "it is asked first";
   EXPECT_TRUE(user_.window().question().starts_with("Another region of interest starts the scan over."));
-  user_.run("answer \"Start over\"\n");
+  user_.run_quickly("answer \"Start over\"\n");
   EXPECT_EQ(user_.session().message, "");
   EXPECT_TRUE(user_.session().records.empty());
   Eigen::AlignedBox3d expected = before;
@@ -54,7 +54,7 @@ TEST_F(WindowRegion, AFaceThatIsLetGoIsTheSettingAndStartsOver) {
   EXPECT_TRUE(region(user_).isApprox(expected)) << region_text(region(user_));
   EXPECT_EQ(user_.session().configuration.map.region, region_text(expected));
   EXPECT_TRUE(user_.window().state().edit_region) << "another side can be dragged";
-  user_.run("undo\n");
+  user_.run_quickly("undo\n");
   EXPECT_EQ(user_.session().records.size(), 1u);
   EXPECT_TRUE(region(user_).isApprox(before));
 }
@@ -75,10 +75,10 @@ TEST_F(WindowRegion, EscapeLeavesAndChangesNothing) {
   const Eigen::AlignedBox3d before = region(user_);
   drag(1, {0.2, 0, 0});
   user_.type(Key::escape);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_FALSE(user_.window().state().edit_region);
   user_.release();
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_TRUE(region(user_).isApprox(before));
   EXPECT_EQ(user_.session().records.size(), 1u);
 }
@@ -87,14 +87,15 @@ TEST_F(WindowRegion, ARegionThatIsRefusedGoesBackAndIsSaid) {
   const Eigen::AlignedBox3d before = region(user_);
   drag(centre_handle, {0.9, 0.0, 0.0});  // away from the object
   user_.release();
-  user_.wait();
-  user_.run("answer \"Start over\"\n");
+  user_.wait_for_news();
+  user_.run_quickly("answer \"Start over\"\n");
   EXPECT_NE(user_.session().message, "");
   EXPECT_TRUE(region(user_).isApprox(before));
   EXPECT_EQ(user_.session().records.size(), 1u);
 }
 
 TEST_F(WindowRegion, HandlesAreSeenWhileTheyCanBeDragged) {
+  user_.wait();
   const Rectangle scene = user_.window().layout().scene;
   const int with = count(user_.look(), scene, theme::series[0]);
   user_.run("edit-region\n");

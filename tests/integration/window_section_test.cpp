@@ -16,7 +16,7 @@ namespace {
 
 class WindowSection : public InTemporaryFolder {
  protected:
-  WindowSection() { user_.run("step\nstep\nobject-style solid\ntoggle-octree\ntoggle-views\ntoggle-rays\n"); }
+  WindowSection() { user_.run_quickly("step\nstep\nobject-style solid\ntoggle-octree\ntoggle-views\ntoggle-rays\n"); }
   SceneView& scene() { return user_.window().scene(); }
   const WindowState& state() { return user_.window().state(); }
   double radius() { return user_.session().mesh->bounding_box().sizes().x() / 2; }
@@ -87,6 +87,7 @@ TEST_F(WindowSection, WhatIsCutOffIsNotPicked) {
 }
 
 TEST_F(WindowSection, TheSurfaceIsPaintedByItsDistanceAndGoesAgain) {
+  user_.wait();
   const Image before = user_.look();
   user_.run("toggle-object\n");
   const Image without = user_.look();
@@ -175,6 +176,7 @@ TEST_F(WindowSection, AnExportedPictureHasBothScenes) {
 }
 
 TEST_F(WindowSection, DarkIsDarkAndComesBack) {
+  user_.wait();
   const Image light = user_.look();
   user_.run("dark\n");
   const Image dark = user_.look();
@@ -202,13 +204,13 @@ TEST_F(WindowSection, KeptCamerasAreUndone) {
     for (const CameraBookmark& camera : *user_.session().cameras) all += camera.name + " ";
     return all;
   };
-  user_.run("keep-camera one\nkeep-camera two\nremove-camera one\n");
+  user_.run_quickly("keep-camera one\nkeep-camera two\nremove-camera one\n");
   EXPECT_EQ(names(), "two ");
-  user_.run("undo\n");
+  user_.run_quickly("undo\n");
   EXPECT_EQ(names(), "one two ");
-  user_.run("undo\n");
+  user_.run_quickly("undo\n");
   EXPECT_EQ(names(), "one ");
-  user_.run("redo\nredo\n");
+  user_.run_quickly("redo\nredo\n");
   EXPECT_EQ(names(), "two ");
 }
 
@@ -216,23 +218,23 @@ TEST_F(WindowSection, BordersAreDraggedAndADoubleClickPutsThemBack) {
   const Layout usual = user_.window().layout();
   const double border = usual.left.width, y = usual.left.y + 200;
   user_.move(border, y);
-  user_.wait();
+  user_.wait_for_news();
   user_.press();
-  user_.wait();
+  user_.wait_for_news();
   user_.move(border + 60, y);
-  user_.wait();
+  user_.wait_for_news();
   user_.release();
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_NEAR(user_.window().layout().left.width, usual.left.width + 60, 2);
   EXPECT_EQ(user_.window().layout().scene.x, user_.window().layout().left.width + 1);
-  user_.run("panel-sizes 2000 2000 2000\n");
+  user_.run_quickly("panel-sizes 2000 2000 2000\n");
   EXPECT_GE(user_.window().layout().scene.width, 290) << "the scene keeps some of the window";
   EXPECT_GE(user_.window().layout().scene.height, 150);
   const double wide = user_.window().layout().left.width;
   user_.move(wide, y);
-  user_.wait();
+  user_.wait_for_news();
   for (int i = 0; i < 2; ++i) user_.click(wide, y);
-  user_.wait();
+  user_.wait_for_news();
   EXPECT_EQ(state().place_sizes.left, PlaceSizes().left);
 }
 

@@ -18,8 +18,8 @@ TEST(Window, WorksAtAnySize) {
                                              {1, 1, 1.0}}) {
     SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
     User user(small_scan(), width, height, scale);
-    user.run("step\ncustom-view\nlook-through\nframe\n");
-    for (const std::string& panel : panel_names()) user.run("panel " + panel + "\n");
+    user.run_quickly("step\ncustom-view\nlook-through\nframe\n");
+    for (const std::string& panel : panel_names()) user.run_quickly("panel " + panel + "\n");
     user.run(
         "inspect-voxel 0 0 0\nshortcuts\nshortcuts\npalette\npalette\nlook-from 30 20\nzoom "
         "1\nundo\nundo\nundo\nstep\n");
@@ -38,7 +38,7 @@ TEST(Window, TextGrowsAsFarAsTheControlBarHasRoom) {
   for (const auto& [width, height] : {std::pair{640, 480}, {480, 360}, {1280, 800}}) {
     User user(tiny_scan(), width, height);
     const double usual = user.window().layout().control_bar.height;
-    for (int i = 0; i < 5; ++i) user.run("text-size bigger\n");
+    for (int i = 0; i < 5; ++i) user.run_quickly("text-size bigger\n");
     const double bar = user.window().layout().control_bar.height;
     EXPECT_GT(bar, 1.2 * usual) << width;
     EXPECT_LE(bar / usual * 332, width);

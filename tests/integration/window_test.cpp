@@ -16,6 +16,7 @@ constexpr double half_scale = 0.5;
 
 TEST(Window, LoadsTheObjectAndStepsByKeys) {
   User user(small_scan());
+  user.wait();
   EXPECT_EQ(user.window().title(), "Nextview - sphere - view 0 of 5");
   const Image before = user.look();
   const Rectangle scene = user.window().layout().scene, curves = user.window().layout().bottom;
@@ -87,6 +88,7 @@ TEST(Window, DrawsTheSceneOnlyWhenItChanged) {
 
 TEST(Window, PanelsTellOfANewMapAFrameBeforeTheScene) {
   User user(small_scan(), half_width, half_height, half_scale);
+  user.wait();
   Interface& window = user.window();
   const std::size_t drawings = window.scene_drawings();
   const std::string title = window.title();
