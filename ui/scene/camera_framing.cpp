@@ -48,8 +48,13 @@ std::vector<Vector3> extreme_points(std::span<const Eigen::Vector3f> points) {
   for (int i = 0; i < directions && !points.empty(); ++i) {
     const Eigen::Vector3f outward = direction(i, directions);
     std::size_t farthest = 0;
-    for (std::size_t p = stride; p < points.size(); p += stride)
-      if (outward.dot(points[p]) > outward.dot(points[farthest])) farthest = p;
+    float most = outward.dot(points[0]);
+    for (std::size_t p = stride; p < points.size(); p += stride) {
+      const float reach = outward.dot(points[p]);
+      if (!(reach > most)) continue;
+      most = reach;
+      farthest = p;
+    }
     result.push_back(points[farthest].cast<double>());
   }
   return result;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "ui/layers/geometry.hpp"
 #include "ui/scene/camera_framing.hpp"
@@ -15,7 +16,10 @@ namespace nextview {
 std::vector<Vector3> SceneView::object_outline() {
   if (!shown_) return scene_.outline();
   const SessionSnapshot& s = *shown_;
-  if (s.mesh) return extreme_points(s.mesh->vertices);
+  if (s.mesh) {
+    if (std::exchange(outlined_, s.mesh) != s.mesh) outline_ = extreme_points(s.mesh->vertices);
+    return outline_;
+  }
   if (s.is_recording()) return extreme_points(s.setup->recorded->samples());  // of all frames, before any is taken
   const Eigen::AlignedBox3d region = s.grid.box();
   std::vector<Eigen::Vector3f> inside;

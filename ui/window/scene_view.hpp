@@ -110,8 +110,10 @@ class SceneView {
   std::shared_ptr<const DoubtfulScan> doubtful_;
   // What is not seen is not made.
   bool cloud_is_old_ = true, voxels_are_old_ = true, colours_are_old_ = true;
-  std::shared_ptr<const FoundFaces> faces_;      ///< null: none were found yet
-  std::shared_ptr<const MissedPicture> missed_;  ///< that its layer has
+  std::shared_ptr<const FoundFaces> faces_;       ///< null: none were found yet
+  std::shared_ptr<const MissedPicture> missed_;   ///< that its layer has
+  std::shared_ptr<const TriangleMesh> outlined_;  ///< whose outline this is:
+  std::vector<Vector3> outline_;
   std::shared_ptr<const FoundSurface> surface_;  ///< null, or another session's: there is none
   bool dark_ = false, orthographic_ = false;
   Scene::Stand stand_before_;  ///< of the camera, before it was shown
