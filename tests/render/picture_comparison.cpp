@@ -27,7 +27,7 @@ PictureDifference compare(const Image& expected, const Image& actual) {
   PictureDifference result;
   result.same_size = expected.width == actual.width && expected.height == actual.height;
   if (!result.same_size) return result;
-  result.picture = {expected.width, expected.height, {}};
+  result.picture = {expected.width, expected.height, std::vector<std::uint8_t>(expected.rgba.size(), 255)};
   std::size_t changed = 0;
   for (std::size_t pixel = 0; pixel < expected.rgba.size(); pixel += 4) {
     int difference = 0;
@@ -35,13 +35,12 @@ PictureDifference compare(const Image& expected, const Image& actual) {
       difference = std::max(difference, std::abs(int(expected.rgba[c]) - int(actual.rgba[c])));
     }
     result.largest_difference = std::max(result.largest_difference, difference);
-    const auto pale = static_cast<std::uint8_t>(160 + expected.rgba[pixel + 1] * 95 / 255);
-    const auto red = static_cast<std::uint8_t>(255 - std::min(255, 80 + difference));
+    std::uint8_t* const shown = &result.picture.rgba[pixel];
     if (difference > PictureBound::visible) {
       ++changed;
-      result.picture.rgba.insert(result.picture.rgba.end(), {255, red, red, 255});
+      shown[1] = shown[2] = static_cast<std::uint8_t>(255 - std::min(255, 80 + difference));
     } else {
-      result.picture.rgba.insert(result.picture.rgba.end(), {pale, pale, pale, 255});
+      shown[0] = shown[1] = shown[2] = static_cast<std::uint8_t>(160 + expected.rgba[pixel + 1] * 95 / 255);
     }
   }
   result.changed_share = double(changed) / (double(expected.width) * expected.height);
