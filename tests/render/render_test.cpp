@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include "tests/render/animation_pictures.hpp"
 #include "tests/render/failures_page.hpp"
@@ -17,6 +19,13 @@ const std::filesystem::path screenshots = NEXTVIEW_SCREENSHOTS;
 const FailuresPage failures(NEXTVIEW_RENDER_FAILURES);
 
 bool renews() { return std::getenv("NEXTVIEW_UPDATE_SCREENSHOTS") != nullptr; }
+
+/// Of the last picture, for the next one of its size: in a context of its own all shaders would be compiled anew. It is
+/// not given up at the end, when what it hangs on may be gone before it.
+std::unique_ptr<OffscreenTarget>& kept_target() {
+  static auto* const kept = new std::unique_ptr<OffscreenTarget>;
+  return *kept;
+}
 
 void miss(const std::string& name, const Image& actual) {
   failures.add(name, nullptr, actual, {}, "it is missing");
@@ -71,9 +80,14 @@ void expect_animation(const std::string& name, const std::vector<Image>& actual,
     if (!expect_alike(name, fmt::format("{}_{}", name, i + 1), stored[i], actual[i], {})) return;
 }
 
+/// Not kept where drawing fails: nobody knows what is left in it.
 Image draw_scene(int width, int height, const std::function<void(Scene&)>& fill) {
-  OffscreenTarget target(width, height);
-  return draw_scene(target, fill);
+  std::unique_ptr<OffscreenTarget> target = std::move(kept_target());
+  if (target && (target->width() != width || target->height() != height)) target.reset();
+  if (!target) target = std::make_unique<OffscreenTarget>(width, height);
+  Image image = draw_scene(*target, fill);
+  kept_target() = std::move(target);
+  return image;
 }
 
 Image draw_scene(RenderTarget& target, const std::function<void(Scene&)>& fill) {
