@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/surface/surface_file.hpp"
@@ -56,13 +57,11 @@ class DayByHand : public Display, public testing::WithParamInterface<DisplaySize
   }
   /// Until the picture stays as it is.
   void settle() const {
-    Image before;
+    std::string before;
     wait_until([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      const Image now = screen();
-      const bool same = now == before;
-      before = now;
-      return same;
+      const std::string now = read_file(folder_ / "Xvfb_screen0");
+      return std::exchange(before, now) == now;
     });
   }
   void start_on_whole_screen(const std::string& arguments, const std::string& title) {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "core/file/atomic_file.hpp"
@@ -55,13 +56,15 @@ inline Image read_screen(const std::filesystem::path& file) {
   };
   const std::size_t header = number(0), colours = number(19), stride = number(12);
   Image image{static_cast<int>(number(4)), static_cast<int>(number(5)), {}};
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) {
-      const std::size_t pixel = header + 12 * colours + y * stride + 4 * std::size_t(x);
-      for (const std::size_t channel : {2, 1, 0})  // blue, green, red
-        image.rgba.push_back(static_cast<std::uint8_t>(dump.at(pixel + channel)));
-      image.rgba.push_back(255);
-    }
+  const std::size_t row = std::size_t(image.width) * 4;
+  image.rgba.resize(row * std::size_t(image.height), 255);
+  for (std::size_t y = 0; y < std::size_t(image.height); ++y) {
+    const std::size_t begin = header + 12 * colours + y * stride;
+    if (begin + row > dump.size()) throw std::runtime_error(file.string() + ": is cut off");
+    for (std::size_t x = 0; x < row; x += 4)
+      for (std::size_t channel = 0; channel < 3; ++channel)  // they are blue, green, red there
+        image.rgba[y * row + x + channel] = static_cast<std::uint8_t>(dump[begin + x + 2 - channel]);
+  }
   return image;
 }
 
@@ -112,8 +115,16 @@ class Display : public testing::Test {
     }
     return false;
   }
+  /// Likewise, until a window has this title. xdotool looks for it twice a second by itself: to start it for each look
+  /// took longer than what was waited for.
   bool titled(const std::string& title) const {
-    return wait_until([&] { return xdotool(fmt::format("search --name '{}'", title)); });
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::minutes(2);
+    do {
+      if (xdotool(fmt::format("search --sync --name '{}'", title))) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    } while (Clock::now() < end);
+    return false;
   }
   static void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(1500)); }
 
