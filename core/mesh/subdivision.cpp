@@ -15,6 +15,26 @@ constexpr std::uint32_t whole = 0xffffffffu;  ///< in the place of a middle: the
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+std::invalid_argument too_many(double longest_edge) {
+  return std::invalid_argument(
+      fmt::format("subdivision: edges of at most {} m would take more than {} million triangles", longest_edge,
+                  max_triangles / 1'000'000));
+}
+
+/// How many triangles there will be at least, of those that have to be split: none of the pieces is larger than one
+/// whose edges are all as long as they may be.
+double least_pieces(const TriangleMesh& mesh, double longest_edge) {
+  const double largest = std::sqrt(3.0) / 4 * longest_edge * longest_edge;  // area [m2]
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Eigen::Vector3d from = mesh.vertices[a].cast<double>();
+    const Eigen::Vector3d ab = mesh.vertices[b].cast<double>() - from, ac = mesh.vertices[c].cast<double>() - from;
+    if (std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}) > longest_edge * longest_edge)
+      area += 0.5 * ab.cross(ac).norm();
+  }
+  return area / largest;
+}
+
 /// One round: every edge that is too long is split in the middle.
 class Round {
  public:
@@ -25,10 +45,7 @@ class Round {
     std::vector<Triangle> triangles;
     for (const Triangle& triangle : mesh_.triangles) {
       split(triangle, triangles);
-      if (triangles.size() > max_triangles && !middles_.empty())
-        throw std::invalid_argument(
-            fmt::format("subdivision: edges of at most {} m would take more than {} million triangles",
-                        std::sqrt(longest_squared_), max_triangles / 1'000'000));
+      if (triangles.size() > max_triangles && !middles_.empty()) throw too_many(std::sqrt(longest_squared_));
     }
     mesh_.triangles = std::move(triangles);
     return !middles_.empty();
@@ -81,6 +98,8 @@ class Round {
 TriangleMesh subdivided(const TriangleMesh& mesh, double longest_edge) {
   if (!(longest_edge > 0.0))
     throw std::invalid_argument(fmt::format("subdivision: the longest edge must be over 0 m, not {}", longest_edge));
+  // What cannot end is refused before memory is filled; a tenth more, as places are rounded.
+  if (least_pieces(mesh, longest_edge) > 1.1 * double(max_triangles)) throw too_many(longest_edge);
   TriangleMesh result = mesh;
   while (Round(result, longest_edge).split()) {
   }
