@@ -1,6 +1,11 @@
 #include <octomap/OcTreeNode.h>
 #include <octomap/OccupancyOcTreeBase.h>
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
 #include "core/gain/map_rays.hpp"
 #include "core/progress/stopped.hpp"
 
@@ -78,6 +83,37 @@ struct ReferenceMap::Tree : octomap::OccupancyOcTreeBase<Node> {
     if (!node->unmeasured) return;
     if (node->occlusion_distance == 0 || distance < node->occlusion_distance) node->occlusion_distance = distance;
   }
+
+  /// Looks for one key after the other from where their ways through the tree part: those along a ray share most of it.
+  class Search {
+   public:
+    explicit Search(const Tree& tree) : tree_(tree) { path_[levels] = tree.root; }
+
+    /// As search() finds it.
+    const Node* find(const OcTreeKey& key) {
+      if (!tree_.root) return nullptr;
+      const unsigned parted =
+          unsigned(key[0] ^ before_[0]) | unsigned(key[1] ^ before_[1]) | unsigned(key[2] ^ before_[2]);
+      unsigned level = std::max(unsigned(std::bit_width(parted)), reached_);
+      before_ = key;
+      const Node* node = path_[level];
+      for (; level > 0; --level) {
+        const unsigned child = octomap::computeChildIdx(key, int(level) - 1);
+        if (!tree_.nodeChildExists(node, child)) break;
+        node = path_[level - 1] = tree_.getNodeChild(node, child);
+      }
+      reached_ = level;
+      return level == 0 || !tree_.nodeHasChildren(node) ? node : nullptr;
+    }
+
+   private:
+    static constexpr unsigned levels = 16;
+
+    const Tree& tree_;
+    OcTreeKey before_{0, 0, 0};
+    std::array<const Node*, levels + 1> path_{};  ///< of the key before: at each level, the root's the last
+    unsigned reached_ = levels;                   ///< the level that its search ended at
+  };
 };
 
 ReferenceMap::ReferenceMap(const Parameters& parameters)
@@ -156,16 +192,26 @@ void ReferenceMap::cast(const Vector3& origin, const Vector3& direction, std::ve
 
   KeyRay keys;
   tree_->computeRayKeys(from, end, keys);
+  Tree::Search search(*tree_);
+  const double unknown_entropy = entropy(parameters_.unknown_prior);
+  // Of the last measured voxel: the next one often has the same.
+  float log_odds = std::numeric_limits<float>::quiet_NaN();
+  double occupancy = 0.0, occupancy_entropy = 0.0;
   const auto visit = [&](const OcTreeKey& key) {
     RayVoxel& voxel = visited.emplace_back();
     for (int axis = 0; axis < 3; ++axis) voxel.lattice[axis] = static_cast<std::int16_t>(int(key[axis]) - 32768);
-    const Node* node = tree_->search(key);
+    const Node* node = search.find(key);
     voxel.has_node = node != nullptr;
     voxel.measured = node && !node->unmeasured;
     if (node) voxel.occlusion_distance = static_cast<std::uint16_t>(std::min(node->occlusion_distance, 65535));
-    const double p = voxel.measured ? node->getOccupancy() : parameters_.unknown_prior;
+    if (voxel.measured && node->getLogOdds() != log_odds) {
+      log_odds = node->getLogOdds();
+      occupancy = node->getOccupancy();
+      occupancy_entropy = entropy(occupancy);
+    }
+    const double p = voxel.measured ? occupancy : parameters_.unknown_prior;
     voxel.probability = static_cast<float>(p);
-    voxel.entropy = static_cast<float>(entropy(p));
+    voxel.entropy = static_cast<float>(voxel.measured ? occupancy_entropy : unknown_entropy);
     voxel.voxel_class = parameters_.model.classify(p);
   };
   for (const OcTreeKey& key : keys) visit(key);
