@@ -21,6 +21,21 @@ constexpr double frame_time = 1.0 / 60;
 /// How often it is asked whether what the scene waits for is there [s].
 constexpr double scene_wait = 0.003;
 
+/// Whether nothing differs but how far what runs has come.
+bool differ_in_progress_alone(const News& before, const News& now) {
+  const bool runs = now.progress.busy && !now.progress.paused;
+  if (!runs && !now.surface_progress) return false;
+  News as_far = before;
+  if (runs) {
+    as_far.progress.fraction = now.progress.fraction;
+    as_far.progress.what = now.progress.what;
+    as_far.progress.seconds_left = now.progress.seconds_left;
+    as_far.progress.sampler = now.progress.sampler;
+  }
+  if (as_far.surface_progress && now.surface_progress) as_far.surface_progress = now.surface_progress;
+  return as_far == now;
+}
+
 }  // namespace
 
 Interface::Interface(RenderTarget& target, SessionWorker& worker, InspectionWorker& inspector, double scale) {
@@ -118,14 +133,17 @@ std::size_t Interface::pixels_drawn() const { return parts_->composer.drawn().pi
 
 double Interface::seconds_to_next_frame() const {
   const Parts& p = *parts_;
+  const News latest = p.latest();
+  const bool has_news = !(p.news == latest), goes_on = has_news && differ_in_progress_alone(p.news, latest);
   if (p.settling > 0 || p.state.picture || !p.queue.empty() || p.layout_is_old() || p.script_may_go_on() ||
-      !(p.news == p.latest()))
+      (has_news && !goes_on))
     return 0.0;
   const Presentation& shown = p.state.presentation;
   const bool time_passes = shown.is_moving() && !shown.paused && p.at_rest();
   if (time_passes && (!p.rested || (shown.due > 0 && shown.holds()))) return 0.0;
   double wait = std::min(seconds_to_tooltip(p.host.context()), p.panels.seconds_left());
-  if (time_passes || (shown.demo && p.script.done())) wait = std::min(wait, frame_time);
+  // How far something has come is told as often as a display shows it, not each time that it is a little farther.
+  if (time_passes || goes_on || (shown.demo && p.script.done())) wait = std::min(wait, frame_time);
   if (p.scene_waits) wait = std::min(wait, scene_wait);
   if (p.motion_left > 0) wait = std::min(wait, p.motion_left);
   return p.news.progress.busy ? std::min(wait, longest_wait_while_busy) : wait;
