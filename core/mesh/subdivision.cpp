@@ -10,7 +10,7 @@
 namespace nextview {
 namespace {
 
-constexpr std::size_t max_triangles = 4'000'000;
+constexpr std::size_t most_triangles = 4'000'000;
 constexpr std::uint32_t whole = 0xffffffffu;  ///< in the place of a middle: the edge is not split
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -18,7 +18,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 std::invalid_argument too_many(double longest_edge) {
   return std::invalid_argument(
       fmt::format("subdivision: edges of at most {} m would take more than {} million triangles", longest_edge,
-                  max_triangles / 1'000'000));
+                  most_triangles / 1'000'000));
 }
 
 /// How many triangles there will be at least, of those that have to be split: none of the pieces is larger than one
@@ -45,7 +45,7 @@ class Round {
     std::vector<Triangle> triangles;
     for (const Triangle& triangle : mesh_.triangles) {
       split(triangle, triangles);
-      if (triangles.size() > max_triangles && !middles_.empty()) throw too_many(std::sqrt(longest_squared_));
+      if (triangles.size() > most_triangles && !middles_.empty()) throw too_many(std::sqrt(longest_squared_));
     }
     mesh_.triangles = std::move(triangles);
     return !middles_.empty();
@@ -99,7 +99,7 @@ TriangleMesh subdivided(const TriangleMesh& mesh, double longest_edge) {
   if (!(longest_edge > 0.0))
     throw std::invalid_argument(fmt::format("subdivision: the longest edge must be over 0 m, not {}", longest_edge));
   // What cannot end is refused before memory is filled; a tenth more, as places are rounded.
-  if (least_pieces(mesh, longest_edge) > 1.1 * double(max_triangles)) throw too_many(longest_edge);
+  if (least_pieces(mesh, longest_edge) > 1.1 * double(most_triangles)) throw too_many(longest_edge);
   TriangleMesh result = mesh;
   while (Round(result, longest_edge).split()) {
   }
