@@ -14,24 +14,20 @@ namespace {
 using plain::Conditional;
 using plain::Levels;
 
-/// A test problem with outliers, misses and rays that cross.
-struct Problem {
+/// A test problem with outliers, misses and rays that cross, and the model that it is judged by.
+struct ModelledProblem {
   random_problems::Problem problem;
   ForwardSensorModel model;
   double prior = 0.2;
 
-  explicit Problem(ForwardModel kind) : problem(random_problems::make({"oblong", {4, 2, 1}, 2, 9, 0.7}, 12)) {
-    model.kind = kind;
-    model.sigma = problem.sigma;
-    model.angular_sigma = 0.3;
-    model.random_weight = 0.1;
-    model.attenuations = {0.3, 2.0};
-  }
+  explicit ModelledProblem(ForwardModel kind)
+      : problem(random_problems::make({"oblong", {4, 2, 1}, 2, 9, 0.7}, 12)),
+        model(random_problems::model_for(problem, kind)) {}
   plain::Posterior posterior() const { return {problem.grid, problem.measurements, model, prior}; }
 };
 
 /// Samples with this conditional in place of the right one and compares as the bar does.
-MarginalComparison sample(const Problem& right, const Conditional& conditional) {
+MarginalComparison compare_sampled(const ModelledProblem& right, const Conditional& conditional) {
   const plain::Posterior posterior = right.posterior();
   std::vector<Estimate> runs;
   for (const plain::Marginals& run : plain::gibbs_sampler(posterior, conditional, 200'000, 8, 1))
@@ -41,15 +37,15 @@ MarginalComparison sample(const Problem& right, const Conditional& conditional) 
 
 class Conditionals : public ::testing::TestWithParam<ForwardModel> {
  protected:
-  const Problem right{GetParam()};
+  const ModelledProblem right{GetParam()};
 
   void expect_caught(const Conditional& broken) const {
-    const MarginalComparison comparison = sample(right, broken);
+    const MarginalComparison comparison = compare_sampled(right, broken);
     EXPECT_FALSE(comparison.agrees());
     EXPECT_GT(comparison.largest_difference, 4.0 * comparison.standard_error) << "by chance";
     fmt::print("             caught by {:.3f}: {}\n", comparison.largest_difference, comparison.where);
   }
-  void expect_caught(const Problem& wrong) const {
+  void expect_caught(const ModelledProblem& wrong) const {
     const plain::Posterior posterior = wrong.posterior();
     expect_caught(plain::full_conditional(posterior));
   }
@@ -60,7 +56,7 @@ class ConditionalsOfSeveralLevels : public Conditionals {};
 
 TEST_P(Conditionals, theRightOnePasses) {
   const plain::Posterior posterior = right.posterior();
-  const MarginalComparison comparison = sample(right, plain::full_conditional(posterior));
+  const MarginalComparison comparison = compare_sampled(right, plain::full_conditional(posterior));
   EXPECT_TRUE(comparison.agrees()) << comparison.where;
   EXPECT_LT(comparison.standard_error, 0.0025);
   fmt::print("             largest difference {:.4f}, standard error {:.4f}\n", comparison.largest_difference,
@@ -90,7 +86,7 @@ TEST_P(Conditionals, oneThatForgetsWhatBlocksARayIsCaught) {
 }
 
 TEST_P(ConditionalsWithAFloor, oneWithoutTheFloorIsCaught) {
-  Problem wrong = right;
+  ModelledProblem wrong = right;
   wrong.model.random_weight = 1e-9;
   expect_caught(wrong);
 }
@@ -106,7 +102,7 @@ TEST_P(Conditionals, oneThatCountsThePriorTwiceIsCaught) {
 }
 
 TEST_P(Conditionals, oneThatTakesDependentRaysForIndependentIsCaught) {
-  Problem dependent = right;
+  ModelledProblem dependent = right;
   dependent.model.independence = 0.4;
   const plain::Posterior posterior = right.posterior(), expected = dependent.posterior();
   std::vector<Estimate> runs;
@@ -118,13 +114,13 @@ TEST_P(Conditionals, oneThatTakesDependentRaysForIndependentIsCaught) {
 }
 
 TEST_P(Conditionals, oneThatForgetsARayIsCaught) {
-  Problem wrong = right;
+  ModelledProblem wrong = right;
   wrong.problem.measurements.rays.erase(wrong.problem.measurements.rays.begin() + 8);
   expect_caught(wrong);
 }
 
 TEST_P(Conditionals, oneThatIgnoresNoReturnsIsCaught) {
-  Problem wrong = right;
+  ModelledProblem wrong = right;
   EXPECT_GT(std::erase_if(wrong.problem.measurements.rays, [](const auto& ray) { return ray.beyond_range; }), 0u);
   expect_caught(wrong);
 }

@@ -12,10 +12,9 @@ namespace nextview {
 namespace {
 
 using random_problems::Problem;
+using random_problems::room;
 
-Problem room() { return random_problems::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
-
-PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind) {
+PosteriorSamplerConfig four_chains(const Problem& problem, ForwardModel kind) {
   PosteriorSamplerConfig config;
   config.model.kind = kind;
   config.model.sigma = problem.sigma;
@@ -43,7 +42,7 @@ TEST(Chains, FromOneStartDifferAfterASweep) {
        {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation})
     for (const StartMap start : {StartMap::free, StartMap::occupied})
       for (const Sampler sampler : {Sampler::exact, Sampler::algorithm1}) {
-        PosteriorSamplerConfig config = config_for(problem, kind);
+        PosteriorSamplerConfig config = four_chains(problem, kind);
         config.start = start;
         config.sampler = sampler;
         const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
@@ -58,7 +57,7 @@ TEST(Chains, FromOneStartDifferAfterASweep) {
 // Chains that start from the same warm map part at once, too.
 TEST(Chains, FromOneWarmMapDifferAfterASweep) {
   const Problem problem = room();
-  const PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
+  const PosteriorSamplerConfig config = four_chains(problem, ForwardModel::attenuation);
   const std::vector<std::vector<std::uint8_t>> warm(4, std::vector<std::uint8_t>(problem.grid.voxel_count(), 1));
   const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config, {}, {warm});
   EXPECT_TRUE(all_differ(posterior.states));
@@ -67,7 +66,7 @@ TEST(Chains, FromOneWarmMapDifferAfterASweep) {
 // A chain draws the same whatever chains run beside it, and every sweep anew.
 TEST(Chains, DoNotDependOnTheirNumber) {
   const Problem problem = room();
-  PosteriorSamplerConfig config = config_for(problem, ForwardModel::attenuation);
+  PosteriorSamplerConfig config = four_chains(problem, ForwardModel::attenuation);
   const GibbsPosterior four = sample_posterior(problem.grid, problem.measurements, config);
   config.chains = 2;
   const GibbsPosterior two = sample_posterior(problem.grid, problem.measurements, config);
@@ -80,7 +79,7 @@ TEST(Chains, DoNotDependOnTheirNumber) {
 // The posterior is the mean over all chains, each with the same weight.
 TEST(Chains, AllCountInTheMean) {
   const Problem problem = room();
-  PosteriorSamplerConfig config = config_for(problem, ForwardModel::beam);
+  PosteriorSamplerConfig config = four_chains(problem, ForwardModel::beam);
   config.sweeps = 40, config.start = StartMap::random;
   config.chains = 1;
   const GibbsPosterior one = sample_posterior(problem.grid, problem.measurements, config);

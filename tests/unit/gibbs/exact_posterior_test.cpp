@@ -9,14 +9,12 @@
 
 #include "tests/unit/gibbs/plain_model.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
+#include "tests/unit/gibbs/tested_values.hpp"
 
 namespace nextview {
 namespace {
 
-constexpr ForwardModel every_model[] = {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
-                                        ForwardModel::attenuation};
-
-ForwardSensorModel model_for(const random_problems::Problem& problem, ForwardModel kind, VoxelRange range) {
+ForwardSensorModel model_of_few_outliers(const random_problems::Problem& problem, ForwardModel kind, VoxelRange range) {
   ForwardSensorModel model;
   model.kind = kind;
   model.voxel_range = range;
@@ -49,7 +47,7 @@ TEST(ExactPosterior, isThePlainEnumeration) {
       centre = !centre;
       SCOPED_TRACE(shape.name + ", " + std::string(name(kind)) + (centre ? ", centre" : ", segment"));
       const random_problems::Problem problem = random_problems::make(shape, seed);
-      expect_equal(problem, model_for(problem, kind, centre ? VoxelRange::centre : VoxelRange::segment),
+      expect_equal(problem, model_of_few_outliers(problem, kind, centre ? VoxelRange::centre : VoxelRange::segment),
                    seed % 3 == 0   ? 0.5
                    : seed % 3 == 1 ? 0.1
                                    : 0.02);
@@ -61,7 +59,7 @@ TEST(ExactPosterior, isThePlainEnumerationWhateverRaysCount) {
   for (const double independence : {0.03, 0.4}) {
     const random_problems::Problem problem = random_problems::make(random_problems::small()[4], 7);
     for (const ForwardModel kind : every_model) {
-      ForwardSensorModel model = model_for(problem, kind, VoxelRange::segment);
+      ForwardSensorModel model = model_of_few_outliers(problem, kind, VoxelRange::segment);
       model.independence = independence;
       expect_equal(problem, model, 0.1);
     }
@@ -74,7 +72,7 @@ TEST(ExactPosterior, twiceTheRaysAtHalfTheIndependenceAreTheSame) {
   RangeMeasurements twice = problem.measurements;
   twice.rays.insert(twice.rays.end(), problem.measurements.rays.begin(), problem.measurements.rays.end());
   for (const ForwardModel kind : every_model) {
-    ForwardSensorModel model = model_for(problem, kind, VoxelRange::segment);
+    ForwardSensorModel model = model_of_few_outliers(problem, kind, VoxelRange::segment);
     const ExactPosterior once = exact_posterior(problem.grid, problem.measurements, model, 0.1);
     const ExactPosterior surer = exact_posterior(problem.grid, twice, model, 0.1);
     model.independence = 0.5;
@@ -92,7 +90,7 @@ TEST(ExactPosterior, twiceTheRaysAtHalfTheIndependenceAreTheSame) {
 TEST(ExactPosterior, isThePlainEnumerationOfAMillionMaps) {
   const random_problems::Problem problem = random_problems::make(random_problems::large()[1], 101);
   ASSERT_EQ(problem.grid.voxel_count(), 20u);
-  expect_equal(problem, model_for(problem, ForwardModel::beam, VoxelRange::segment), 0.1);
+  expect_equal(problem, model_of_few_outliers(problem, ForwardModel::beam, VoxelRange::segment), 0.1);
 }
 
 TEST(ExactPosterior, aVoxelOfNoRayKeepsThePrior) {
@@ -138,7 +136,7 @@ TEST(ExactPosterior, oneReturnInTwoVoxelsByHand) {
 TEST(ExactPosterior, weightsCountRays) {
   random_problems::Problem problem = random_problems::make(random_problems::small()[4], 5);
   for (const ForwardModel kind : every_model) {
-    const ForwardSensorModel model = model_for(problem, kind, VoxelRange::segment);
+    const ForwardSensorModel model = model_of_few_outliers(problem, kind, VoxelRange::segment);
     RangeMeasurements thrice = problem.measurements, weighted = problem.measurements;
     for (int copy = 0; copy < 2; ++copy)
       thrice.rays.insert(thrice.rays.end(), problem.measurements.rays.begin(), problem.measurements.rays.end());

@@ -5,20 +5,15 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include "core/random/counter_random.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
+#include "tests/unit/gibbs/tested_values.hpp"
 
 namespace nextview {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr ForwardModel every_model[] = {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
-                                        ForwardModel::attenuation};
 
 /// A corridor along x of voxels 0.1 m long, seen from 0.1 m before it: voxel n spans ranges 0.1 (n + 1) to 0.1 (n + 2).
 struct Corridor {

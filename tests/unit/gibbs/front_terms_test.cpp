@@ -14,14 +14,14 @@ namespace nextview {
 namespace {
 
 /// Rays and entries at random; some rays are blocked, some say nothing.
-struct Problem {
+struct RaysAndEntries {
   std::vector<RayLists::FrontEntry> entries;
   std::vector<RayWitness> rays;
   std::vector<RaySurvival> survivals;
   std::vector<OfChords<PassingPair>> passing = std::vector<OfChords<PassingPair>>(3);
   OfChords<std::int32_t> own_depth;
 
-  Problem(std::size_t count, std::uint64_t seed) {
+  RaysAndEntries(std::size_t count, std::uint64_t seed) {
     const CounterRandom draws(seed, 0, 0);
     constexpr std::size_t ray_count = 1000;
     for (std::size_t r = 0; r < ray_count; ++r) {
@@ -92,7 +92,7 @@ class FrontTermsOn : public OnInstructionSet {};
 
 TEST_P(FrontTermsOn, AreThePlainSumToTheLastBit) {
   for (std::size_t count = 0; count < 600; count += count < 70 ? 1 : 59) {
-    const Problem problem(count, count);
+    const RaysAndEntries problem(count, count);
     for (const bool is_free : {false, true})
       for (const std::size_t levels : {1, 2, 3, 4, 5})
         for (const double enough : {-std::numeric_limits<double>::infinity(), -1.5, 0.0}) {
@@ -105,7 +105,7 @@ TEST_P(FrontTermsOn, AreThePlainSumToTheLastBit) {
 }
 
 TEST_P(FrontTermsOn, StopOnlyWhereNothingCouldReachEnough) {
-  const Problem problem(500, 7);
+  const RaysAndEntries problem(500, 7);
   std::vector<double> all(2), some(2);
   EXPECT_FALSE(add_front_terms(problem.terms(true), -std::numeric_limits<double>::infinity(), all));
   EXPECT_LT(all[1], all[0]);

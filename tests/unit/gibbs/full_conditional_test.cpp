@@ -22,19 +22,6 @@ using random_problems::Problem;
 
 constexpr double prior = 0.2;
 
-ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRange range = VoxelRange::segment,
-                             double independence = 1.0) {
-  ForwardSensorModel model;
-  model.kind = kind;
-  model.voxel_range = range;
-  model.sigma = problem.sigma;
-  model.angular_sigma = 0.3;
-  model.random_weight = 0.1;
-  model.attenuations = {0.3, 2.0};
-  model.independence = independence;
-  return model;
-}
-
 plain::Levels random_map(const Problem& problem, const ForwardSensorModel& model, std::mt19937& random) {
   plain::Levels map(problem.grid.voxel_count());
   for (auto& level : map) level = random() % 3 == 0 ? std::uint8_t(1 + random() % (model.levels() - 1)) : 0;

@@ -25,14 +25,14 @@ Series series(std::size_t count, double rho, std::uint32_t index, Drift drift) {
 }
 
 /// A level for the first tenth, one for what follows, and one for the last half.
-struct Levels {
+struct SteppedDrift {
   double head, between, tail;
   double operator()(double t) const { return t < 0.1 ? head : t < 0.5 ? between : tail; }
 };
 
 TEST(Geweke, IsThatOfTheTextbook) {
   for (const double rho : {0.0, 0.5, 0.8})
-    for (const Levels levels : {Levels{0, 0, 0}, {0.1, 0, 0}, {0, 3, 0}, {-0.3, -2, 0.1}, {0.2, 0, 0.5}})
+    for (const SteppedDrift levels : {SteppedDrift{0, 0, 0}, {0.1, 0, 0}, {0, 3, 0}, {-0.3, -2, 0.1}, {0.2, 0, 0.5}})
       for (std::uint32_t index = 0; index < 5; ++index) {
         const Series x = series(100'000, rho, index, levels);
         const double expected = plain::geweke(x, rho == 0.0 ? 0 : 100);

@@ -10,10 +10,9 @@ namespace nextview {
 namespace {
 
 using random_problems::Problem;
+using random_problems::room;
 
-Problem room() { return random_problems::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
-
-PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind = ForwardModel::attenuation) {
+PosteriorSamplerConfig three_chains(const Problem& problem, ForwardModel kind = ForwardModel::attenuation) {
   PosteriorSamplerConfig config;
   config.model.kind = kind;
   config.model.sigma = problem.sigma;
@@ -27,7 +26,7 @@ PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind = Fo
 TEST(LevelTraces, ChangeNoResult) {
   const Problem problem = room();
   for (const ForwardModel kind : {ForwardModel::beam, ForwardModel::attenuation, ForwardModel::cone}) {
-    PosteriorSamplerConfig config = config_for(problem, kind);
+    PosteriorSamplerConfig config = three_chains(problem, kind);
     const GibbsPosterior without = sample_posterior(problem.grid, problem.measurements, config);
     config.keep_traces = true;
     const GibbsPosterior with = sample_posterior(problem.grid, problem.measurements, config);
@@ -43,7 +42,7 @@ TEST(LevelTraces, ChangeNoResult) {
 
 TEST(LevelTraces, AreTheChainsLevelsOfTheMeansSweeps) {
   const Problem problem = room();
-  PosteriorSamplerConfig config = config_for(problem);
+  PosteriorSamplerConfig config = three_chains(problem);
   config.keep_traces = true;
   config.sweeps = 2007;
   const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
@@ -70,7 +69,7 @@ TEST(LevelTraces, AreTheChainsLevelsOfTheMeansSweeps) {
 
 TEST(LevelTraces, DropTheOldestSweepsBeyondTheirMemory) {
   const Problem problem = room();
-  PosteriorSamplerConfig config = config_for(problem);
+  PosteriorSamplerConfig config = three_chains(problem);
   config.keep_traces = true;
   const LevelTraces all = sample_posterior(problem.grid, problem.measurements, config).traces;
   config.max_trace_bytes = 20 * 3 * all.voxels.size() + 5;
@@ -90,7 +89,7 @@ TEST(LevelTraces, DropTheOldestSweepsBeyondTheirMemory) {
 
 TEST(LevelTraces, OfAStationaryRunAreThoseOfItsLastMean) {
   const Problem problem = room();
-  PosteriorSamplerConfig config = config_for(problem);
+  PosteriorSamplerConfig config = three_chains(problem);
   config.keep_traces = config.until_stationary = true;
   config.sweeps = 4000;
   const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
@@ -100,7 +99,7 @@ TEST(LevelTraces, OfAStationaryRunAreThoseOfItsLastMean) {
 
 TEST(SamplerProgress, ShowsTheTracesUpToNow) {
   const Problem problem = room();
-  const PosteriorSamplerConfig config = config_for(problem);
+  const PosteriorSamplerConfig config = three_chains(problem);
   std::vector<int> sweeps;
   std::vector<double> trace;
   const auto look = [&](double fraction, std::string_view, const SamplerDiagnostics& so_far) {

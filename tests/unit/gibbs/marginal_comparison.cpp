@@ -9,7 +9,8 @@ namespace nextview {
 namespace {
 
 /// Adds one marginal of one voxel to the comparison.
-void add(const std::vector<double>& values, double expected, const std::string& what, MarginalComparison& result) {
+void add_marginal(const std::vector<double>& values, double expected, const std::string& what,
+                  MarginalComparison& result) {
   if (values.size() < 2) return;  // the voxel is wrongly taken for not informed, and said to be
   const auto count = static_cast<double>(values.size());
   double mean = 0.0, variance = 0.0;
@@ -53,8 +54,8 @@ MarginalComparison compare(const plain::Marginals& exact, const std::vector<Esti
     if (2 * wrong > runs.size() || (wrong > 0 && std::abs(exact.reach[voxel] - 0.5) > 0.15))
       result.wrongly_informed += fmt::format(" voxel {} in {} of {} runs ({:.3f} rays reach it)", voxel, wrong,
                                              runs.size(), exact.reach[voxel]);
-    add(occupied, informed ? exact.occupied[voxel] : 0.5, fmt::format("voxel {} occupied", voxel), result);
-    add(upper, informed ? exact.upper[voxel] : 0.5, fmt::format("voxel {} at the upper level", voxel), result);
+    add_marginal(occupied, informed ? exact.occupied[voxel] : 0.5, fmt::format("voxel {} occupied", voxel), result);
+    add_marginal(upper, informed ? exact.upper[voxel] : 0.5, fmt::format("voxel {} at the upper level", voxel), result);
   }
   return result;
 }

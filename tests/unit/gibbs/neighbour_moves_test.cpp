@@ -7,13 +7,14 @@
 
 #include "core/gibbs/first_hit_state.hpp"
 #include "core/gibbs/survival_state.hpp"
+#include "tests/unit/gibbs/plain_model.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
 
 namespace nextview {
 namespace {
 
+using plain::Levels;
 using random_problems::Problem;
-using Levels = std::vector<std::uint8_t>;
 
 /// A state over the rays of a problem, and the moves on it.
 template <class State>
@@ -54,7 +55,7 @@ double log_likelihood_of(const Problem& problem, const ForwardSensorModel& model
   return sum;
 }
 
-Problem room() { return random_problems::make({"room", {7, 6, 5}, 4, 300, 0.4}, 11); }
+Problem small_room() { return random_problems::make({"room", {7, 6, 5}, 4, 300, 0.4}, 11); }
 
 CounterRandom draws(std::uint32_t sweep) { return {5, random_stream::gibbs, sweep}; }
 
@@ -65,7 +66,7 @@ std::size_t differing(const Levels& a, const Levels& b) {
 }
 
 TEST(NeighbourMoves, WhereAllVoxelsAreAlikeNothingChanges) {
-  const Problem problem = room();
+  const Problem problem = small_room();
   for_each_state(problem, [&](auto moved) {
     for (const std::uint8_t level : {0, 1}) {
       const Levels alike(problem.grid.voxel_count(), level);
@@ -78,7 +79,7 @@ TEST(NeighbourMoves, WhereAllVoxelsAreAlikeNothingChanges) {
 }
 
 TEST(NeighbourMoves, ExchangeLevelsNearRangesAndKeepTheirNumber) {
-  const Problem problem = room();
+  const Problem problem = small_room();
   for_each_state(problem, [&](auto moved) {
     std::mt19937 random(3);
     Levels before(problem.grid.voxel_count());

@@ -13,14 +13,13 @@
 #include "tests/unit/gibbs/marginal_comparison.hpp"
 #include "tests/unit/gibbs/plain_model.hpp"
 #include "tests/unit/gibbs/random_problems.hpp"
+#include "tests/unit/gibbs/tested_values.hpp"
 
 namespace nextview {
 namespace {
 
 using random_problems::Problem;
-
-constexpr ForwardModel every_model[] = {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
-                                        ForwardModel::attenuation};
+using random_problems::room;
 
 PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind) {
   PosteriorSamplerConfig config;
@@ -33,9 +32,6 @@ PosteriorSamplerConfig config_for(const Problem& problem, ForwardModel kind) {
   config.ray_spacing = 0.0;
   return config;
 }
-
-/// 400 voxels: more than a test problem, so that threads have something to share.
-Problem room() { return random_problems::make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
 
 TEST(PosteriorSampler, theSameBytesOnAnyNumberOfThreads) {
   const Problem problem = room();

@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 
 #include "core/gibbs/posterior_sampler.hpp"
+#include "tests/unit/gibbs/tested_values.hpp"
 
 namespace nextview {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr ForwardModel every_model[] = {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam,
-                                        ForwardModel::attenuation};
 
 const VoxelGrid corridor{0.1, {0, 0, 0}, {8, 1, 1}};
 

@@ -22,18 +22,6 @@ using random_problems::Shape;
 constexpr double largest_standard_error = 0.003;  // far below the bar
 constexpr int most_sweeps = 128'000;
 
-ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, bool centre_ranges, double independence) {
-  ForwardSensorModel model;
-  model.kind = kind;
-  model.voxel_range = centre_ranges ? VoxelRange::centre : VoxelRange::segment;
-  model.sigma = problem.sigma;
-  model.angular_sigma = 0.3;
-  model.random_weight = 0.1;
-  model.attenuations = {0.3, 2.0};
-  model.independence = independence;
-  return model;
-}
-
 Estimate sample(const Problem& problem, const PosteriorSamplerConfig& config) {
   const GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
   return {{posterior.occupied.begin(), posterior.occupied.end()},
@@ -92,7 +80,8 @@ class SamplerOnProblems : public ::testing::TestWithParam<Case> {};
 TEST_P(SamplerOnProblems, marginalsAreThoseOfTheExactPosterior) {
   const Case& c = GetParam();
   const Problem problem = random_problems::make(c.shape, c.seed);
-  const ForwardSensorModel model = model_for(problem, c.model, c.centre_ranges, c.independence);
+  const ForwardSensorModel model =
+      model_for(problem, c.model, c.centre_ranges ? VoxelRange::centre : VoxelRange::segment, c.independence);
   const plain::Marginals exact = plain::enumerate(plain::Posterior(problem.grid, problem.measurements, model, c.prior));
   for (const int swaps : {0, 1})
     for (const int plaquettes : {0, 1}) {

@@ -76,6 +76,20 @@ Problem make(const Shape& shape, std::uint64_t seed) {
   return problem;
 }
 
+Problem room() { return make({"room", {10, 8, 5}, 4, 600, 0.4}, 7); }
+
+ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRange range, double independence) {
+  ForwardSensorModel model;
+  model.kind = kind;
+  model.voxel_range = range;
+  model.sigma = problem.sigma;
+  model.angular_sigma = 0.3;
+  model.random_weight = 0.1;
+  model.attenuations = {0.3, 2.0};
+  model.independence = independence;
+  return model;
+}
+
 std::vector<Shape> small() {
   return {{"corridor of one ray", {6, 1, 1}, 1, 1, 0.5},
           {"corridor", {10, 1, 1}, 1, 6, 1.0},

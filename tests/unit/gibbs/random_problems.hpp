@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/gibbs/forward_sensor_model.hpp"
 #include "core/gibbs/range_measurements.hpp"
 #include "core/map/voxel_grid.hpp"
 
@@ -24,6 +25,13 @@ struct Problem {
   double sigma = 0.0;  ///< [m]
 };
 Problem make(const Shape& shape, std::uint64_t seed);
+
+/// 400 voxels: more than the test problems below, so that threads have something to share.
+Problem room();
+
+/// A model of this kind that knows the noise of the problem, with more outliers than by default.
+ForwardSensorModel model_for(const Problem& problem, ForwardModel kind, VoxelRange range = VoxelRange::segment,
+                             double independence = 1.0);
 
 /// One-dimensional corridors, two- and three-dimensional grids; none has over 12 voxels, so that three levels can be
 /// enumerated too, but those of `large`, for two levels.

@@ -10,7 +10,7 @@ namespace nextview {
 namespace {
 
 constexpr double max_range = 1.5;
-const VoxelGrid corridor{0.1, {3, 0, 0}, {8, 1, 1}};  // from 0.3 to 1.1 m before the camera
+const VoxelGrid far_corridor{0.1, {3, 0, 0}, {8, 1, 1}};  // from 0.3 to 1.1 m before the camera
 const Vector3 camera(0.0, 0.06, 0.04);
 
 RangeMeasurements one_ray(double z, bool beyond_range) {
@@ -26,7 +26,7 @@ RangeMeasurements one_ray(double z, bool beyond_range) {
 
 double likelihood(const ForwardSensorModel& model, double z, bool beyond_range, const plain::Levels& map) {
   const RangeMeasurements measurements = one_ray(z, beyond_range);
-  return std::exp(log_likelihood(corridor, model, measurements, measurements.rays[0], map));
+  return std::exp(log_likelihood(far_corridor, model, measurements, measurements.rays[0], map));
 }
 
 /// Integral of the range's density plus the probability of no return.
@@ -38,7 +38,7 @@ double total(const ForwardSensorModel& model, const plain::Levels& map) {
   return sum;
 }
 
-ForwardSensorModel of_kind(ForwardModel kind, double sigma) {
+ForwardSensorModel with_uneven_weights(ForwardModel kind, double sigma) {
   ForwardSensorModel model;
   model.kind = kind;
   model.sigma = sigma;
@@ -50,14 +50,14 @@ ForwardSensorModel of_kind(ForwardModel kind, double sigma) {
 TEST(RangeDensity, integratesToOneWithTheNoReturns) {
   for (const VoxelRange range : {VoxelRange::segment, VoxelRange::centre})
     for (const double sigma : {0.01, 0.05}) {
-      ForwardSensorModel beam = of_kind(ForwardModel::beam, sigma);
+      ForwardSensorModel beam = with_uneven_weights(ForwardModel::beam, sigma);
       beam.voxel_range = range;
       for (const plain::Levels& map : {plain::Levels{0, 0, 0, 0, 0, 0, 0, 0},
                                        {0, 0, 0, 1, 0, 1, 0, 0},
                                        {1, 1, 1, 1, 1, 1, 1, 1},
                                        {0, 0, 0, 0, 0, 0, 1, 0}})
         EXPECT_NEAR(total(beam, map), 1.0, 1e-3) << sigma;
-      ForwardSensorModel attenuation = of_kind(ForwardModel::attenuation, sigma);
+      ForwardSensorModel attenuation = with_uneven_weights(ForwardModel::attenuation, sigma);
       attenuation.voxel_range = range;
       for (const plain::Levels& map : {plain::Levels{0, 0, 0, 0, 0, 0, 0, 0},
                                        {0, 0, 0, 1, 0, 2, 0, 0},
@@ -68,29 +68,31 @@ TEST(RangeDensity, integratesToOneWithTheNoReturns) {
 }
 
 TEST(RangeDensity, ofOneVoxelIsTheMeanOfTheGaussianOverItsSegment) {
-  const ForwardSensorModel model = of_kind(ForwardModel::beam, 0.02);
+  const ForwardSensorModel model = with_uneven_weights(ForwardModel::beam, 0.02);
   const VoxelSegment segment{2, 0.5, 0.6};
   double integral = 0.0;
-  for (int i = 0; i < 20'000; ++i) integral += hit_density(corridor, model, camera, segment, (i + 0.5) * 1e-4) * 1e-4;
+  for (int i = 0; i < 20'000; ++i)
+    integral += hit_density(far_corridor, model, camera, segment, (i + 0.5) * 1e-4) * 1e-4;
   EXPECT_NEAR(integral, 1.0, 1e-4);
   for (const double z : {0.45, 0.5, 0.53, 0.6, 0.62}) {
     double mean = 0.0;  // midpoint rule
     for (int i = 0; i < 1'000; ++i) mean += std::exp(-0.5 * std::pow((0.5 + (i + 0.5) * 1e-4 - z) / 0.02, 2)) / 1e3;
-    EXPECT_NEAR(hit_density(corridor, model, camera, segment, z), mean / (0.02 * std::sqrt(2.0 * M_PI)), 1e-3) << z;
+    EXPECT_NEAR(hit_density(far_corridor, model, camera, segment, z), mean / (0.02 * std::sqrt(2.0 * M_PI)), 1e-3) << z;
   }
 }
 
 TEST(RangeDensity, withCentresIsTheGaussianAroundTheCentresDistance) {
-  ForwardSensorModel model = of_kind(ForwardModel::beam, 0.02);
+  ForwardSensorModel model = with_uneven_weights(ForwardModel::beam, 0.02);
   model.voxel_range = VoxelRange::centre;
-  const double range = (corridor.centre(2) - camera).norm();  // slightly over 0.55: the ray passes beside the centre
+  const double range =
+      (far_corridor.centre(2) - camera).norm();  // slightly over 0.55: the ray passes beside the centre
   const double peak = 1.0 / (0.02 * std::sqrt(2.0 * M_PI));
-  EXPECT_NEAR(hit_density(corridor, model, camera, {2, 0.5, 0.6}, range), peak, 1e-6);
-  EXPECT_NEAR(hit_density(corridor, model, camera, {2, 0.5, 0.6}, range + 0.02), peak * std::exp(-0.5), 1e-6);
+  EXPECT_NEAR(hit_density(far_corridor, model, camera, {2, 0.5, 0.6}, range), peak, 1e-6);
+  EXPECT_NEAR(hit_density(far_corridor, model, camera, {2, 0.5, 0.6}, range + 0.02), peak * std::exp(-0.5), 1e-6);
 }
 
 TEST(RangeDensity, beamByHand) {
-  const ForwardSensorModel model = of_kind(ForwardModel::beam, 0.01);
+  const ForwardSensorModel model = with_uneven_weights(ForwardModel::beam, 0.01);
   const plain::Levels nothing(8, 0), third{0, 0, 1, 0, 0, 0, 0, 0};
   EXPECT_NEAR(likelihood(model, 0.55, false, third), 0.89 / 0.1 + 0.07 / 1.5, 1e-4) << "5 sigma from either face";
   EXPECT_NEAR(likelihood(model, 0.5, false, third), 0.89 * 0.5 / 0.1 + 0.07 / 1.5, 1e-3) << "on the near face";
@@ -101,7 +103,7 @@ TEST(RangeDensity, beamByHand) {
 }
 
 TEST(RangeDensity, attenuationByHand) {
-  const ForwardSensorModel model = of_kind(ForwardModel::attenuation, 0.01);
+  const ForwardSensorModel model = with_uneven_weights(ForwardModel::attenuation, 0.01);
   const plain::Levels map{0, 1, 2, 0, 0, 0, 0, 0};
   const double first = 1.0 - std::exp(-0.3), second = std::exp(-0.3) * (1.0 - std::exp(-2.0));
   EXPECT_NEAR(likelihood(model, 0.45, false, map), 0.89 * first / 0.1 + 0.07 / 1.5, 1e-4);
@@ -111,9 +113,9 @@ TEST(RangeDensity, attenuationByHand) {
 }
 
 TEST(RangeDensity, aStrongAttenuationIsTheBeamModel) {
-  ForwardSensorModel strong = of_kind(ForwardModel::attenuation, 0.02);
+  ForwardSensorModel strong = with_uneven_weights(ForwardModel::attenuation, 0.02);
   strong.attenuations = {200.0};
-  const ForwardSensorModel beam = of_kind(ForwardModel::beam, 0.02);
+  const ForwardSensorModel beam = with_uneven_weights(ForwardModel::beam, 0.02);
   const plain::Levels map{0, 0, 0, 1, 0, 1, 0, 0};
   for (const double z : {0.35, 0.58, 0.64, 0.71, 0.85, 1.2})
     EXPECT_NEAR(likelihood(strong, z, false, map), likelihood(beam, z, false, map), 1e-6) << z;
@@ -123,7 +125,7 @@ TEST(RangeDensity, aStrongAttenuationIsTheBeamModel) {
 TEST(RangeDensity, aReturnIsLikeliestWhereItsVoxelIsTheFirst) {
   for (const ForwardModel kind :
        {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation}) {
-    ForwardSensorModel model = of_kind(kind, 0.05);
+    ForwardSensorModel model = with_uneven_weights(kind, 0.05);
     model.angular_sigma = 0.1;
     double before = -HUGE_VAL;
     for (int voxel = 0; voxel < 8; ++voxel) {
@@ -144,7 +146,7 @@ TEST(RangeDensity, aReturnIsLikeliestWhereItsVoxelIsTheFirst) {
 
 TEST(RangeDensity, whatStandsBehindAnOccupiedVoxelIsOfNoConsequence) {
   for (const ForwardModel kind : {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam}) {
-    const ForwardSensorModel model = of_kind(kind, 0.05);
+    const ForwardSensorModel model = with_uneven_weights(kind, 0.05);
     const plain::Levels alone{0, 0, 1, 0, 0, 0, 0, 0}, crowd{0, 0, 1, 1, 0, 1, 1, 1};
     EXPECT_EQ(likelihood(model, 0.65, false, alone), likelihood(model, 0.65, false, crowd)) << name(kind);
     EXPECT_EQ(likelihood(model, 1.5, true, alone), likelihood(model, 1.5, true, crowd)) << name(kind);
@@ -152,7 +154,7 @@ TEST(RangeDensity, whatStandsBehindAnOccupiedVoxelIsOfNoConsequence) {
 }
 
 TEST(RangeDensity, aNoReturnIsLessLikelyWithEveryVoxelInTheWay) {
-  const ForwardSensorModel model = of_kind(ForwardModel::attenuation, 0.02);
+  const ForwardSensorModel model = with_uneven_weights(ForwardModel::attenuation, 0.02);
   plain::Levels map(8, 0);
   double before = likelihood(model, 1.5, true, map);
   for (std::uint8_t& level : map)

@@ -13,8 +13,6 @@
 namespace nextview {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
 std::size_t total_weight(const RangeMeasurements& measurements) {
   return std::accumulate(measurements.rays.begin(), measurements.rays.end(), std::size_t{0},
                          [](std::size_t sum, const RangeMeasurement& ray) { return sum + ray.weight; });
@@ -86,6 +84,7 @@ TEST(RangeMeasurements, addTakesReturnsBeyondTheMaximumRangeForNoReturns) {
 }
 
 TEST(RangeMeasurements, addLeavesOutWhatHasNoDirection) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   RangeMeasurements measurements;
   measurements.add({{1, 2, 3}, {{1, 2, 3}, {1, 2, 4}, {nan, 2, 4}}, {{1, 2, 3}, {1, nan, 3}}});
   ASSERT_EQ(measurements.rays.size(), 1u);

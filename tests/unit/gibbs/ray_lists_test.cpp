@@ -19,14 +19,14 @@ namespace {
 using random_problems::Problem;
 
 /// With rays that stand for several, and one that goes nowhere near the grid.
-Problem room() {
+Problem room_missed_by_a_ray() {
   Problem problem = random_problems::make({"room", {8, 7, 5}, 4, 400, 0.4, true}, 7);
   const Vector3 away = 2.0 * problem.measurements.origins[0] - 0.5 * (problem.grid.lower() + problem.grid.upper());
   problem.measurements.rays.push_back({away.cast<float>(), 0, 1, false});
   return problem;
 }
 
-ForwardSensorModel model_for(const Problem& problem, ForwardModel kind) {
+ForwardSensorModel dependent_model(const Problem& problem, ForwardModel kind) {
   ForwardSensorModel model;
   model.kind = kind;
   model.sigma = problem.sigma;
@@ -35,7 +35,7 @@ ForwardSensorModel model_for(const Problem& problem, ForwardModel kind) {
 }
 
 RayLists lists_for(const Problem& problem, ForwardModel kind) {
-  return {problem.grid, problem.measurements, model_for(problem, kind)};
+  return {problem.grid, problem.measurements, dependent_model(problem, kind)};
 }
 
 /// From the definition: the voxels on a ray's line up to 4 sigma behind its range are near it from 4 sigma before on.
@@ -58,7 +58,7 @@ struct Expected {
 };
 
 TEST(RayLists, HoldTheVoxelsInFrontOfRangesAndNearThem) {
-  const Problem problem = room();
+  const Problem problem = room_missed_by_a_ray();
   const RayLists lists = lists_for(problem, ForwardModel::beam);
   const Expected expected(problem);
   int listed = 0, differing = 0;
@@ -78,7 +78,7 @@ TEST(RayLists, HoldTheVoxelsInFrontOfRangesAndNearThem) {
 }
 
 TEST(RayLists, AllVoxelsAreNearWhereTheFirstOneCounts) {
-  const Problem problem = room();
+  const Problem problem = room_missed_by_a_ray();
   const Expected expected(problem);
   for (const ForwardModel kind : {ForwardModel::paper, ForwardModel::cone}) {
     const RayLists lists = lists_for(problem, kind);
@@ -92,11 +92,11 @@ TEST(RayLists, AllVoxelsAreNearWhereTheFirstOneCounts) {
 }
 
 TEST(RayLists, HaveTheRaysInTheirOrderAndNoneThatMissesTheGrid) {
-  const Problem problem = room();
+  const Problem problem = room_missed_by_a_ray();
   const RayLists lists = lists_for(problem, ForwardModel::beam);
   std::vector<std::uint32_t> weights;  // of those that enter: some outliers end before the grid
   for (const RangeMeasurement& ray : problem.measurements.rays) {
-    const double end = list_end(problem.measurements, ray, model_for(problem, ForwardModel::beam));
+    const double end = list_end(problem.measurements, ray, dependent_model(problem, ForwardModel::beam));
     const Vector3& origin = problem.measurements.origins[ray.origin];
     if (plain::voxels_on_line(problem.grid, origin, problem.measurements.direction(ray), end).empty()) continue;
     weights.push_back(ray.weight);
@@ -111,7 +111,7 @@ TEST(RayLists, HaveTheRaysInTheirOrderAndNoneThatMissesTheGrid) {
 }
 
 TEST(RayLists, OfARayAndOfAVoxelTellTheSame) {
-  const Problem problem = room();
+  const Problem problem = room_missed_by_a_ray();
   const RayLists lists = lists_for(problem, ForwardModel::attenuation);
   std::vector<std::map<std::uint32_t, std::uint32_t>> front(lists.rays());  // of each ray: voxel and chord
   std::vector<std::size_t> near(lists.rays());
@@ -140,8 +140,8 @@ TEST(RayLists, OfARayAndOfAVoxelTellTheSame) {
 }
 
 TEST(RayLists, KnowHowMuchLikelierBeyondRangeIsWhereNothingIsInTheWay) {
-  const Problem problem = room();
-  ForwardSensorModel model = model_for(problem, ForwardModel::beam);
+  const Problem problem = room_missed_by_a_ray();
+  ForwardSensorModel model = dependent_model(problem, ForwardModel::beam);
   model.random_weight = 0.1, model.max_weight = 0.2;
   const RayLists lists(problem.grid, problem.measurements, model);
   std::size_t open = 0, expected = 0;
@@ -192,10 +192,10 @@ void expect_same(const RayLists& a, const RayLists& b) {
 }
 
 TEST(RayLists, GrowViewByViewToWhatTheyAreOfAllViews) {
-  const Problem problem = room();
+  const Problem problem = room_missed_by_a_ray();
   for (const ForwardModel kind :
        {ForwardModel::paper, ForwardModel::cone, ForwardModel::beam, ForwardModel::attenuation}) {
-    const ForwardSensorModel model = model_for(problem, kind);
+    const ForwardSensorModel model = dependent_model(problem, kind);
     RayLists grown(problem.grid, of_origins(problem.measurements, 0, 0), model);
     EXPECT_EQ(grown.rays(), 0u);
     for (std::uint32_t origin = 0; origin < 4; ++origin) {
@@ -213,7 +213,7 @@ TEST(RayLists, GrowViewByViewToWhatTheyAreOfAllViews) {
 }
 
 TEST(Sites, AreWhatRaysObserve) {
-  const Problem problem = room();
+  const Problem problem = room_missed_by_a_ray();
   const RayLists lists = lists_for(problem, ForwardModel::beam);
   std::vector<float> start(problem.grid.voxel_count());
   for (std::size_t v = 0; v < start.size(); ++v) start[v] = v % 3 == 0 ? 0.5f : v % 3 == 1 ? 0.4999f : 0.9f;
@@ -245,7 +245,7 @@ TEST(Sites, AreWhatRaysObserve) {
 TEST(Sites, AreNearARangeOrPassedByALaterRay) {
   const Problem problem = random_problems::make({"large room", {12, 11, 10}, 3, 60, 0.2}, 7);
   const RangeMeasurements by_origin = of_origins(problem.measurements, 0, 3);
-  const RayLists lists(problem.grid, by_origin, model_for(problem, ForwardModel::beam));
+  const RayLists lists(problem.grid, by_origin, dependent_model(problem, ForwardModel::beam));
   const std::uint32_t first = lists.first_ray_of(2);
   ASSERT_TRUE(first > 0 && first < lists.rays());
   const Sites sites = find_sites(lists, {}, {}, first);

@@ -15,9 +15,9 @@ namespace {
 
 using random_problems::Problem;
 
-Problem room() { return random_problems::make({"room", {8, 7, 5}, 4, 400, 0.4, true}, 7); }
+Problem room_of_weighted_rays() { return random_problems::make({"room", {8, 7, 5}, 4, 400, 0.4, true}, 7); }
 
-PosteriorSamplerConfig config_for(const Problem& problem) {
+PosteriorSamplerConfig sixty_sweeps(const Problem& problem) {
   PosteriorSamplerConfig config;
   config.model.sigma = problem.sigma;
   config.sweeps = 60, config.burn_in = 5;
@@ -50,7 +50,7 @@ std::vector<RayCount> plain_counts(const Problem& problem) {
 }
 
 TEST(ReadOut, CountsRaysUpToWhereTheyEnd) {
-  const Problem problem = room();
+  const Problem problem = room_of_weighted_rays();
   for (const ForwardModel kind : {ForwardModel::attenuation, ForwardModel::paper}) {
     ForwardSensorModel model;
     model.kind = kind;
@@ -161,9 +161,9 @@ TEST(ReadOut, KnowsFacesFromEdgesAndCorners) {
 
 /// A room with its posterior, and its rays as the read-out sees them.
 struct RefinedRoom {
-  Problem problem = room();
-  GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config_for(problem));
-  ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, config_for(problem).model));
+  Problem problem = room_of_weighted_rays();
+  GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, sixty_sweeps(problem));
+  ReadOutRays rays = read_out_rays(RayLists(problem.grid, problem.measurements, sixty_sweeps(problem).model));
 };
 
 TEST(ReadOut, SomeLayersHaveTheFeaturesThatTheyHaveAmongAll) {
@@ -239,8 +239,8 @@ TEST(ReadOut, WhereRaysOnlyPassedItSaysNoMoreThanTheLevels) {
 }
 
 TEST(ReadOut, OfThePosteriorIsThatOfItsRaysAndLevels) {
-  const Problem problem = room();
-  const PosteriorSamplerConfig config = config_for(problem);
+  const Problem problem = room_of_weighted_rays();
+  const PosteriorSamplerConfig config = sixty_sweeps(problem);
   GibbsPosterior posterior = sample_posterior(problem.grid, problem.measurements, config);
   const auto touch = posterior.touch, centre = posterior.centre;
   EXPECT_NE(touch, posterior.occupied);
@@ -258,7 +258,7 @@ TEST(ReadOut, OfThePosteriorIsThatOfItsRaysAndLevels) {
 
 TEST(ReadOut, OfSomeSitesIsThatOfAllAroundThem) {
   const Problem problem = random_problems::make({"large room", {14, 13, 12}, 3, 30, 0.1}, 7);
-  const PosteriorSamplerConfig config = config_for(problem);
+  const PosteriorSamplerConfig config = sixty_sweeps(problem);
   const GibbsPosterior all = sample_posterior(problem.grid, problem.measurements, config);
   const RayLists lists(problem.grid, problem.measurements, config.model);
   Sites sites = find_sites(lists, config, {});
@@ -284,8 +284,8 @@ TEST(ReadOut, OfSomeSitesIsThatOfAllAroundThem) {
 }
 
 TEST(ReadOut, IsTheSameBytesOnAnyNumberOfThreads) {
-  const Problem problem = room();
-  PosteriorSamplerConfig config = config_for(problem);
+  const Problem problem = room_of_weighted_rays();
+  PosteriorSamplerConfig config = sixty_sweeps(problem);
   config.model.independence = 0.0;
   std::vector<GibbsPosterior> posteriors;
   for (const std::size_t threads : {1, 2, 2}) {
@@ -297,8 +297,8 @@ TEST(ReadOut, IsTheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(ReadOut, IsNotAppliedToLevelsThatItWasNotFittedTo) {
-  const Problem problem = room();
-  std::vector<PosteriorSamplerConfig> configs(6, config_for(problem));
+  const Problem problem = room_of_weighted_rays();
+  std::vector<PosteriorSamplerConfig> configs(6, sixty_sweeps(problem));
   configs[0].read_out = ReadOut::levels;
   configs[1].model.kind = ForwardModel::beam;
   configs[2].sampler = Sampler::algorithm1;

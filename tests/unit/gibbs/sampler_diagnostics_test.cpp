@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "core/random/counter_random.hpp"
+#include "tests/unit/gibbs/plain_diagnostics.hpp"
 
 namespace nextview {
 namespace {
 
-using Series = std::vector<double>;
+using plain::Series;
 
 double r_hat(std::initializer_list<Series> chains) {
   const std::vector<std::span<const double>> views(chains.begin(), chains.end());

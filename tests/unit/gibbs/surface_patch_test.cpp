@@ -26,7 +26,7 @@ struct Plane {
 };
 
 /// 25 x 25 rays, a quarter of an edge apart.
-void add(RangeMeasurements& measurements, const Plane& plane) {
+void add_plane(RangeMeasurements& measurements, const Plane& plane) {
   const Vector3 n = plane.normal.normalized(), u = n.unitOrthogonal(), v = n.cross(u);
   const Vector3 centre = Vector3::Constant(0.5 * edge);
   std::mt19937 random(plane.seed);
@@ -54,7 +54,7 @@ TEST(SurfacePatch, IsThePlaneThatRaysEndedOnNearAsWide) {
     for (const double distance : {-0.4, 0.0, 0.3}) {
       const Vector3 n = normal.normalized(), ray = n + 0.5 * n.unitOrthogonal();
       RangeMeasurements measurements{5.0, {}, {}};
-      add(measurements, {n, distance * n, ray});
+      add_plane(measurements, {n, distance * n, ray});
       const RayEnds ends = ends_of(measurements);
       for (const SurfacePatch& patch : {ends.patch(middle), ends.wide_patch(middle)}) {
         EXPECT_NEAR(patch.distance, distance, 0.02) << n.transpose();
@@ -73,7 +73,7 @@ TEST(SurfacePatch, AWideOneIsSteadierWhereRaysAreNoisy) {
   for (int i = 0; i < 20; ++i) {
     const Vector3 n = Vector3(std::cos(i), std::sin(i), 1.5).normalized();
     RangeMeasurements measurements{5.0, {}, {}};
-    add(measurements, {n, distance * n, n, noise, unsigned(i)});
+    add_plane(measurements, {n, distance * n, n, noise, unsigned(i)});
     const RayEnds ends = ends_of(measurements, noise);
     near += std::pow(ends.patch(middle).distance - distance, 2);
     wide += std::pow(ends.wide_patch(middle).distance - distance, 2);
@@ -84,8 +84,8 @@ TEST(SurfacePatch, AWideOneIsSteadierWhereRaysAreNoisy) {
 TEST(SurfacePatch, OfAThinWallHasBothItsSides) {
   const Vector3 n(0.2, 0.1, 1.0), unit = n.normalized();
   RangeMeasurements measurements{5.0, {}, {}};
-  add(measurements, {n, -0.2 * unit, n});
-  add(measurements, {n, 0.3 * unit, -n});
+  add_plane(measurements, {n, -0.2 * unit, n});
+  add_plane(measurements, {n, 0.3 * unit, -n});
   SurfacePatch patch = patch_of(measurements);
   EXPECT_NEAR(patch.from_behind, 0.5, 0.1);
   if (patch.distance > patch.distance_from_behind) {  // which of both is in front is a matter of a few rays
@@ -99,7 +99,8 @@ TEST(SurfacePatch, TakesTheSensorsNoiseForWhatItIs) {
   const double noise = 0.3 * edge;
   const Vector3 n = Vector3(1, 0.5, 2).normalized();
   RangeMeasurements measurements{5.0, {}, {}};
-  for (int i = 0; i < 8; ++i) add(measurements, {n, 0.1 * n, n + 0.1 * i * n.unitOrthogonal(), noise, unsigned(i)});
+  for (int i = 0; i < 8; ++i)
+    add_plane(measurements, {n, 0.1 * n, n + 0.1 * i * n.unitOrthogonal(), noise, unsigned(i)});
   const SurfacePatch known = patch_of(measurements, noise), unknown = patch_of(measurements, 0.01 * edge);
   EXPECT_NEAR(known.distance, 0.1, 0.05);
   EXPECT_NEAR(known.half, 0.5 * n.cwiseAbs().sum(), 0.05);
