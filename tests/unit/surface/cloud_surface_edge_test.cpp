@@ -34,7 +34,7 @@ void expect_empty_with_reason(const Surface& surface) {
   EXPECT_FALSE(surface.why_empty.empty());
 }
 
-std::vector<Scan> sphere() { return views_of_sphere(0.1, {.pitch = 0.003, .half_width = 40}, true, 1); }
+std::vector<Scan> scanned_sphere() { return views_of_sphere(0.1, {.pitch = 0.003, .half_width = 40}, true, 1); }
 
 TEST(CloudSurfaceEdge, TooFewPointsAreEmptyWithTheReason) {
   expect_empty_with_reason(cloud_surface({}, finest));
@@ -59,7 +59,7 @@ TEST(CloudSurfaceEdge, PointsOnALineAreSound) {
 
 /// Whether a sphere's scans with one more point give the sphere, of this area, or are refused.
 bool sound_with(const Eigen::Vector3f& point, bool first, double area) {
-  auto scans = sphere();
+  auto scans = scanned_sphere();
   auto& points = scans[first ? 0 : 3].hits;
   points.insert(first ? points.begin() : points.end(), point);
   try {
@@ -74,7 +74,7 @@ bool sound_with(const Eigen::Vector3f& point, bool first, double area) {
 /// How many points without numbers are not dealt with soundly.
 int unsound_points(bool first) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  const double area = cloud_surface(sphere(), finest).mesh.surface_area();
+  const double area = cloud_surface(scanned_sphere(), finest).mesh.surface_area();
   int unsound = 0;
   for (const Eigen::Vector3f& point : {Eigen::Vector3f(nan, nan, nan), {0.1f, nan, 0.0f}, {inf, 0, 0}, {0, -inf, 0}})
     unsound += !sound_with(point, first, area);
@@ -89,7 +89,7 @@ TEST(CloudSurfaceEdge, PointsThatAreNoNumbersAreRefusedOrLeftOut) {
 }
 
 TEST(CloudSurfaceEdge, AStrayPointAKilometreAwayIsRefused) {
-  auto scans = sphere();
+  auto scans = scanned_sphere();
   scans[2].hits.emplace_back(0.0f, 1000.0f, 0.0f);
   try {
     cloud_surface(scans, finest);
@@ -104,7 +104,7 @@ TEST(CloudSurfaceEdge, AStrayPointAKilometreAwayIsRefused) {
 
 TEST(CloudSurfaceEdge, CellsThatAreNotOverZeroAreRefused) {
   for (const double cell : {0.0, -0.0, -0.001, double(NAN)}) {
-    EXPECT_THROW(cloud_surface(sphere(), cell), std::invalid_argument) << cell;
+    EXPECT_THROW(cloud_surface(scanned_sphere(), cell), std::invalid_argument) << cell;
     EXPECT_THROW(cloud_surface({}, cell), std::invalid_argument) << cell;
   }
 }
@@ -112,14 +112,14 @@ TEST(CloudSurfaceEdge, CellsThatAreNotOverZeroAreRefused) {
 TEST(CloudSurfaceEdge, HugeCellsAreEmptyWithTheReasonOrRefused) {
   for (const double cell : {1.0, 1e6, 1e30, double(INFINITY)}) {
     try {
-      expect_empty_with_reason(cloud_surface(sphere(), cell));
+      expect_empty_with_reason(cloud_surface(scanned_sphere(), cell));
     } catch (const std::invalid_argument&) {
     }
   }
 }
 
 TEST(CloudSurfaceEdge, TinyCellsAreAsWideAsThePixels) {
-  const Surface surface = cloud_surface(sphere(), 1e-6);
+  const Surface surface = cloud_surface(scanned_sphere(), 1e-6);
   ASSERT_FALSE(surface.empty()) << surface.why_empty;
   EXPECT_TRUE(complete(surface, 0.01));
   EXPECT_LT(surface.mesh.vertices.size(), 200'000u);
@@ -135,7 +135,7 @@ TEST(CloudSurfaceEdge, StopsAtEveryStepAndIsEmptyThen) {
     last = fraction;
     ++steps;
   };
-  ASSERT_FALSE(cloud_surface(sphere(), finest, count).empty());
+  ASSERT_FALSE(cloud_surface(scanned_sphere(), finest, count).empty());
   ASSERT_GT(steps, 2);
   for (int at = 0; at < steps; ++at) {
     std::stop_source source;
@@ -144,14 +144,14 @@ TEST(CloudSurfaceEdge, StopsAtEveryStepAndIsEmptyThen) {
       if (step++ == at) source.request_stop();
     };
     SCOPED_TRACE(at);
-    expect_empty_with_reason(cloud_surface(sphere(), finest, stop_there, source.get_token()));
+    expect_empty_with_reason(cloud_surface(scanned_sphere(), finest, stop_there, source.get_token()));
   }
 }
 
 TEST(CloudSurfaceEdge, StoppedBeforeItBeganIsEmpty) {
   std::stop_source source;
   source.request_stop();
-  expect_empty_with_reason(cloud_surface(sphere(), finest, {}, source.get_token()));
+  expect_empty_with_reason(cloud_surface(scanned_sphere(), finest, {}, source.get_token()));
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ using made_scans::views_of_sphere;
 using surface_checks::complete;
 using surface_checks::with_threads;
 
-constexpr double radius = 0.1;  // of the spheres [m]
+constexpr double sphere_radius = 0.1;  // of the spheres [m]
 
 std::vector<double> distances_to_sphere(const TriangleMesh& mesh) {
   std::vector<double> result;
-  for (const auto& v : mesh.vertices) result.push_back(std::abs(v.cast<double>().norm() - radius));
+  for (const auto& v : mesh.vertices) result.push_back(std::abs(v.cast<double>().norm() - sphere_radius));
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -49,7 +49,7 @@ double outward_share(const TriangleMesh& mesh) {
 }
 
 TEST(CloudSurface, ANoisySphereIsFarBetterThanItsPointsAndClosed) {
-  const Surface surface = cloud_surface(views_of_sphere(radius, {.noise = 0.001}, true, 1), 0.003);
+  const Surface surface = cloud_surface(views_of_sphere(sphere_radius, {.noise = 0.001}, true, 1), 0.003);
   ASSERT_FALSE(surface.empty()) << surface.why_empty;
   ASSERT_TRUE(complete(surface, 0.005));
   ASSERT_TRUE(surface_checks::indices_valid(surface.mesh));
@@ -61,14 +61,15 @@ TEST(CloudSurface, ANoisySphereIsFarBetterThanItsPointsAndClosed) {
   EXPECT_LT(percentile(distances, 0.95), 0.0005);
   EXPECT_LT(distances.back(), 0.002);
   double mean = 0.0;
-  for (const auto& v : surface.mesh.vertices) mean += (v.cast<double>().norm() - radius) / double(distances.size());
+  for (const auto& v : surface.mesh.vertices)
+    mean += (v.cast<double>().norm() - sphere_radius) / double(distances.size());
   EXPECT_LT(std::abs(mean), 0.0002);
 }
 
 TEST(CloudSurface, UncertaintyGrowsWithTheNoise) {
   double last = 0.0;
   for (const double noise : {0.0, 0.001, 0.003}) {
-    const Surface surface = cloud_surface(views_of_sphere(radius, {.noise = noise}, true, 2), 0.003);
+    const Surface surface = cloud_surface(views_of_sphere(sphere_radius, {.noise = noise}, true, 2), 0.003);
     ASSERT_FALSE(surface.empty());
     std::vector<double> u(surface.uncertainty.begin(), surface.uncertainty.end());
     std::sort(u.begin(), u.end());
@@ -79,20 +80,20 @@ TEST(CloudSurface, UncertaintyGrowsWithTheNoise) {
 }
 
 TEST(CloudSurface, IsOpenWhereNoViewHasLookedAndNowhereElse) {
-  const Surface surface = cloud_surface(views_of_sphere(radius, {.noise = 0.0005}, false, 3), 0.003);
+  const Surface surface = cloud_surface(views_of_sphere(sphere_radius, {.noise = 0.0005}, false, 3), 0.003);
   ASSERT_FALSE(surface.empty()) << surface.why_empty;
   ASSERT_TRUE(complete(surface, 0.005));
   const MeshTopology t = topology(surface.mesh);
   EXPECT_GT(t.boundary_edges, 20u);
   EXPECT_EQ(t.non_manifold_edges + t.misoriented_edges, 0u) << t.summary();
   for (const auto v : boundary_vertices(surface.mesh))
-    EXPECT_LT(surface.mesh.vertices[v].z(), -0.8 * radius) << surface.mesh.vertices[v].transpose();
+    EXPECT_LT(surface.mesh.vertices[v].z(), -0.8 * sphere_radius) << surface.mesh.vertices[v].transpose();
   EXPECT_EQ(surface_checks::piece_count(surface.mesh), 1u);
   EXPECT_GT(outward_share(surface.mesh), 0.99);
 }
 
 TEST(CloudSurface, IsOpenWhereACapIsMissingAndNowhereElse) {
-  auto scans = views_of_sphere(radius, {}, true, 4);
+  auto scans = views_of_sphere(sphere_radius, {}, true, 4);
   const Vector3 axis = Vector3(0.3, -0.5, 0.7).normalized();
   for (Scan& scan : scans)
     std::erase_if(scan.hits, [&](const Eigen::Vector3f& p) { return p.cast<double>().dot(axis) > 0.085; });
@@ -137,7 +138,8 @@ TEST(CloudSurface, SparsePointsStillCloseTheSurface) {
   ASSERT_FALSE(flat.empty()) << flat.why_empty;
   EXPECT_EQ(surface_checks::euler_characteristic(flat.mesh), 1) << "a disc without holes";
   EXPECT_NEAR(flat.mesh.surface_area(), 0.0096 * 1.2, 0.0035);
-  const Surface sphere = cloud_surface(views_of_sphere(radius, {.pitch = 0.008, .half_width = 14}, true, 6), 0.002);
+  const Surface sphere =
+      cloud_surface(views_of_sphere(sphere_radius, {.pitch = 0.008, .half_width = 14}, true, 6), 0.002);
   ASSERT_FALSE(sphere.empty()) << sphere.why_empty;
   EXPECT_TRUE(surface_checks::closed(sphere.mesh));
   EXPECT_EQ(surface_checks::euler_characteristic(sphere.mesh), 2);
@@ -157,7 +159,7 @@ TEST(CloudSurface, SparsePointsCloseTheSurfaceWhicheverOfTheViewsTheyCameFrom) {
 }
 
 TEST(CloudSurface, SameBytesOnOneAndTwoThreads) {
-  const auto scans = views_of_sphere(radius, {.noise = 0.001}, false, 8);
+  const auto scans = views_of_sphere(sphere_radius, {.noise = 0.001}, false, 8);
   const auto make = [&] { return cloud_surface(scans, 0.003); };
   const Surface one = with_threads(1, make), two = with_threads(2, make);
   ASSERT_FALSE(one.empty());
@@ -167,7 +169,7 @@ TEST(CloudSurface, SameBytesOnOneAndTwoThreads) {
 }
 
 TEST(CloudSurface, TheOrderOfScansChangesLittle) {
-  auto scans = views_of_sphere(radius, {.noise = 0.001}, true, 9);
+  auto scans = views_of_sphere(sphere_radius, {.noise = 0.001}, true, 9);
   const Surface one = cloud_surface(scans, 0.003);
   std::reverse(scans.begin(), scans.end());
   const Surface other = cloud_surface(scans, 0.003);

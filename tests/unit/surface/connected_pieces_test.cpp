@@ -9,7 +9,7 @@
 namespace nextview {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using surface_checks::Triangles;
 
 TriangleMesh with_vertices(std::size_t count, const Triangles& triangles) {
   TriangleMesh mesh;

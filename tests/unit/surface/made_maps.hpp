@@ -9,6 +9,8 @@
 /// Maps for the tests of surfaces.
 namespace nextview::made_maps {
 
+inline constexpr double edge = 0.01;  ///< of a voxel of the grids below [m]
+
 inline Voxel measured(float probability) {
   Voxel voxel;
   voxel.probability = probability;

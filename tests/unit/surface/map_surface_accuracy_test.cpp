@@ -16,12 +16,11 @@
 namespace nextview {
 namespace {
 
+using made_maps::edge;
 using surface_checks::closed;
 using surface_checks::complete;
 using surface_checks::crossings;
 using surface_checks::signed_volume;
-
-constexpr double edge = 0.01;  // of a voxel [m]
 
 VoxelGrid grid_around(const TriangleMesh& mesh) {
   const Eigen::AlignedBox3d box = mesh.bounding_box();

@@ -12,13 +12,12 @@
 namespace nextview {
 namespace {
 
+using made_maps::edge;
 using made_maps::free_space;
 using made_maps::grid_of;
 using made_maps::measured;
 using surface_checks::closed;
 using surface_checks::complete;
-
-constexpr double edge = 0.01;  // of a voxel [m]
 
 /// The uncertainties in the middle of layers of the given probabilities from z = 0 up, from the least to the largest,
 /// in voxel edges; negative probabilities: not measured. Upper side only.
@@ -82,13 +81,13 @@ TEST(MapSurfaceUncertainty, ASureSphereIsSureAllOver) {
   EXPECT_LT(u.back(), 0.6 * edge);
 }
 
-constexpr double radius = 0.09;  // of the sphere below [m]
+constexpr double mapped_radius = 0.09;  // of the sphere below [m]
 
 /// A sphere around the origin; `unseen(centre of the voxel)` takes voxels out of the scan.
 template <class Unseen>
 Surface partly_seen(Unseen unseen) {
   const VoxelGrid grid = closed_meshes::grid_around_origin();
-  auto voxels = made_maps::scanned(closed_meshes::sphere(Vector3::Zero(), radius, 5), grid);
+  auto voxels = made_maps::scanned(closed_meshes::sphere(Vector3::Zero(), mapped_radius, 5), grid);
   for (std::uint32_t v = 0; v < voxels.size(); ++v)
     if (unseen(grid.centre(v))) voxels[v] = Voxel{};
   Surface surface = map_surface(grid, voxels);
@@ -105,8 +104,8 @@ TEST(MapSurfaceSeen, AHalfThatNoViewHasSeenIsClosedAndMarked) {
     if (p.x() > 1.5 * edge) {
       ++seen;
       ASSERT_EQ(surface.seen[v], 1) << p.transpose();
-      ASSERT_NEAR(p.norm(), radius, edge);
-    } else if (p.x() < -0.5 * edge || std::hypot(p.y(), p.z()) > radius + 1.5 * edge) {
+      ASSERT_NEAR(p.norm(), mapped_radius, edge);
+    } else if (p.x() < -0.5 * edge || std::hypot(p.y(), p.z()) > mapped_radius + 1.5 * edge) {
       ++unseen;
       ASSERT_EQ(surface.seen[v], 0) << p.transpose();
     }
@@ -116,7 +115,7 @@ TEST(MapSurfaceSeen, AHalfThatNoViewHasSeenIsClosedAndMarked) {
 }
 
 TEST(MapSurfaceSeen, ACapOnTheObjectThatNoRayHasMetIsClosedAndMarked) {
-  const auto in_cap = [](const Vector3& p) { return p.z() > 0.05 && p.norm() < radius + edge; };
+  const auto in_cap = [](const Vector3& p) { return p.z() > 0.05 && p.norm() < mapped_radius + edge; };
   const Surface surface = partly_seen(in_cap);
   int cap = 0;
   for (std::size_t v = 0; v < surface.seen.size(); ++v) {
@@ -124,7 +123,7 @@ TEST(MapSurfaceSeen, ACapOnTheObjectThatNoRayHasMetIsClosedAndMarked) {
     if (p.z() > 0.05 + 0.3 * edge) {
       ++cap;
       ASSERT_EQ(surface.seen[v], 0) << p.transpose();
-      ASSERT_NEAR(p.norm(), radius, 2.0 * edge) << "closed near where it must be: in front is free space";
+      ASSERT_NEAR(p.norm(), mapped_radius, 2.0 * edge) << "closed near where it must be: in front is free space";
     } else if (p.z() < 0.05 - 0.3 * edge) {
       ASSERT_EQ(surface.seen[v], 1) << p.transpose();
     }

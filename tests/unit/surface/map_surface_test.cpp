@@ -13,6 +13,7 @@
 namespace nextview {
 namespace {
 
+using made_maps::edge;
 using made_maps::free_space;
 using made_maps::grid_of;
 using made_maps::measured;
@@ -20,8 +21,6 @@ using surface_checks::closed;
 using surface_checks::complete;
 using surface_checks::piece_count;
 using surface_checks::signed_volume;
-
-constexpr double edge = 0.01;  // of a voxel [m]
 
 Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) { return mesh.bounding_box(); }
 

@@ -12,13 +12,12 @@
 namespace nextview {
 namespace {
 
+using made_maps::edge;
 using made_maps::free_space;
 using made_maps::grid_of;
 using made_maps::measured;
 using surface_checks::closed;
 using surface_checks::crossings;
-
-constexpr double edge = 0.01;  // of a voxel [m]
 
 /// A map with layers of the given probabilities from z = 0 up, the same over the whole grid; negative: not measured.
 std::pair<VoxelGrid, std::vector<Voxel>> layers(const std::vector<float>& probabilities) {

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/surface/surface_checks.hpp"
+
 namespace nextview {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using surface_checks::Triangles;
 
 /// Two squares of one edge side by side, and a vertex that nothing needs: of 0.02 m² the right half touches a corner
 /// that was not seen.

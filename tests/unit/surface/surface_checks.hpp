@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <utility>
@@ -13,6 +15,8 @@
 
 /// What the tests of surfaces ask of a mesh, found in the plainest way.
 namespace nextview::surface_checks {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 inline double signed_volume(const TriangleMesh& mesh) {
   double volume = 0.0;

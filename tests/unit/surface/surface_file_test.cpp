@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 
 /// A sphere of radius 0.1 m whose uncertainty rises with z from 0 to 2 mm; its lower third is not seen.
-Surface sphere() {
+Surface partly_seen_sphere() {
   Surface surface;
   surface.mesh = closed_meshes::sphere(Vector3(0.2, -0.1, 0.05), 0.1, 4);
   for (const Eigen::Vector3f& v : surface.mesh.vertices) {
@@ -73,7 +73,7 @@ std::string ply_complaint(const Surface& surface, const std::filesystem::path& f
 
 TEST(Stl, isBinaryInMillimetresWithNormals) {
   const TemporaryFolder folder;
-  const TriangleMesh mesh = sphere().mesh;
+  const TriangleMesh mesh = partly_seen_sphere().mesh;
   write_stl(mesh, folder / "a.stl");
   const std::string bytes = read_file(folder / "a.stl");
   ASSERT_EQ(bytes.size(), 84 + 50 * mesh.triangles.size());
@@ -95,7 +95,7 @@ TEST(Stl, isBinaryInMillimetresWithNormals) {
 
 TEST(Stl, isReadByAnIndependentReader) {
   const TemporaryFolder folder;
-  const TriangleMesh mesh = sphere().mesh;
+  const TriangleMesh mesh = partly_seen_sphere().mesh;
   write_stl(mesh, folder / "a.stl");
   const TriangleMesh read = load_mesh(folder / "a.stl", {.longest_side = 0.0, .unit = LengthUnit::metres});
   EXPECT_EQ(read.triangles.size(), mesh.triangles.size());
@@ -192,7 +192,7 @@ TEST(SurfacePly, coloursGetLighterAsTheUncertaintyRises) {
 
 TEST(SurfacePly, isReadByAnIndependentReader) {
   const TemporaryFolder folder;
-  const Surface surface = sphere();
+  const Surface surface = partly_seen_sphere();
   write_ply(surface, folder / "a.ply");
   const PlacedMesh read = load_placed_mesh(folder / "a.ply", {.longest_side = 0.0, .unit = LengthUnit::metres});
   EXPECT_EQ(read.mesh.vertices.size(), surface.mesh.vertices.size());
@@ -243,7 +243,7 @@ TEST(SurfaceFile, refusesWhatIsNoSurface) {
 
 TEST(SurfaceFile, namesTheFileThatCannotBeWritten) {
   const TemporaryFolder folder;
-  const Surface surface = sphere();
+  const Surface surface = partly_seen_sphere();
   const auto stl = [&](const std::string& name) {
     return complaint<std::runtime_error>([&] { write_stl(surface.mesh, folder / name); });
   };

@@ -13,7 +13,7 @@
 namespace nextview {
 namespace {
 
-constexpr double radius = 60.0;  // [mm]
+constexpr double cloud_radius = 60.0;  // [mm]
 const Vector3 middle(10.0, 20.0, 600.0);
 
 /// Points spread at random over a sphere, each off by the noise along its normal; [mm].
@@ -23,7 +23,7 @@ PointCloud sphere_cloud(std::size_t count, double noise) {
   PointCloud points;
   while (points.size() < count) {
     const Vector3 direction = Vector3(normal(random), normal(random), normal(random)).normalized();
-    points.push_back((middle + (radius + noise * normal(random)) * direction).cast<float>());
+    points.push_back((middle + (cloud_radius + noise * normal(random)) * direction).cast<float>());
   }
   return points;
 }
@@ -31,19 +31,19 @@ PointCloud sphere_cloud(std::size_t count, double noise) {
 /// The mean distance of the vertices from the sphere.
 double mean_distance(const TriangleMesh& mesh) {
   double sum = 0.0;
-  for (const auto& v : mesh.vertices) sum += std::abs((v.cast<double>() - middle).norm() - radius);
+  for (const auto& v : mesh.vertices) sum += std::abs((v.cast<double>() - middle).norm() - cloud_radius);
   return sum / double(mesh.vertices.size());
 }
 
 TEST(UnseenCloud, ASphereOfAnyDensityIsClosedAndNearerThanItsPointsLieApart) {
   for (const std::size_t count : {2'000u, 20'000u, 200'000u}) {
-    const double spacing = std::sqrt(4.0 * std::numbers::pi * radius * radius / double(count));
+    const double spacing = std::sqrt(4.0 * std::numbers::pi * cloud_radius * cloud_radius / double(count));
     const Surface surface = cloud_surface(sphere_cloud(count, 0.05));
     ASSERT_FALSE(surface.empty()) << count << ": " << surface.why_empty;
     EXPECT_TRUE(surface_checks::closed(surface.mesh)) << count;
     EXPECT_EQ(surface_checks::euler_characteristic(surface.mesh), 2) << count;
     EXPECT_LT(mean_distance(surface.mesh), 0.5 * spacing) << count;
-    EXPECT_NEAR(surface.mesh.bounding_box().sizes().maxCoeff(), 2.0 * radius, spacing) << count;
+    EXPECT_NEAR(surface.mesh.bounding_box().sizes().maxCoeff(), 2.0 * cloud_radius, spacing) << count;
   }
 }
 
