@@ -12,8 +12,8 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-const std::string pose = made_recording::matrix(Pose::Identity());
-const std::string intrinsics = "500 0 320\n0 501 240\n0 0 1\n";
+const std::string matrix_of_pose = made_recording::matrix(Pose::Identity());
+const std::string matrix_of_intrinsics = "500 0 320\n0 501 240\n0 0 1\n";
 
 using Files = std::vector<std::pair<std::string, std::string>>;
 
@@ -28,7 +28,8 @@ struct MadeFolder : TemporaryFolder {
 TEST(DatasetGuess, IntrinsicsAreThoseOfTheFileThatIsNamed) {
   for (const char* name :
        {"camera-intrinsics.txt", "intrinsics.txt", "intrinsic_depth.txt", "intrinsic.txt", "camera.txt"}) {
-    const MadeFolder folder(Files{{"frame-0.depth.png", "x"}, {"frame-0.pose.txt", pose}, {name, intrinsics}});
+    const MadeFolder folder(
+        Files{{"frame-0.depth.png", "x"}, {"frame-0.pose.txt", matrix_of_pose}, {name, matrix_of_intrinsics}});
     const auto guess = guess_dataset(folder.path());
     ASSERT_TRUE(guess) << name;
     EXPECT_EQ(guess->description.intrinsics, "500 501 320 240");
@@ -37,7 +38,7 @@ TEST(DatasetGuess, IntrinsicsAreThoseOfTheFileThatIsNamed) {
 }
 
 TEST(DatasetGuess, WithoutAFileOfIntrinsicsTheyAreUsualOnesAndThatIsSaid) {
-  const MadeFolder folder(Files{{"frame-0.depth.png", "x"}, {"frame-0.pose.txt", pose}});
+  const MadeFolder folder(Files{{"frame-0.depth.png", "x"}, {"frame-0.pose.txt", matrix_of_pose}});
   const auto guess = guess_dataset(folder.path());
   ASSERT_TRUE(guess);
   EXPECT_EQ(guess->description.intrinsics, "525 525 319.5 239.5");
@@ -49,7 +50,7 @@ TEST(DatasetGuess, WithoutAFileOfIntrinsicsTheyAreUsualOnesAndThatIsSaid) {
 
 TEST(DatasetGuess, UsualIntrinsicsAreThoseOfAsManyPixels) {
   const std::string image = made_recording::npy(120, 160, "<f4", made_recording::raw(std::vector<float>(120 * 160)));
-  const MadeFolder folder(Files{{"0.depth.npy", image}, {"0.pose.txt", pose}});
+  const MadeFolder folder(Files{{"0.depth.npy", image}, {"0.pose.txt", matrix_of_pose}});
   const auto guess = guess_dataset(folder.path());
   ASSERT_TRUE(guess);
   EXPECT_EQ(guess->description.intrinsics, "131.25 131.25 79.5 59.5");
@@ -60,7 +61,8 @@ TEST(DatasetGuess, RealNumbersAreMetres) {
   for (const auto& [type, data, scale] :
        {std::tuple{"<f4", made_recording::raw<float>({1.5f, 2.5f}), 1.0},
         {"<u2", made_recording::raw<std::uint16_t>({1500, 2500}), DatasetDescription().depth.scale}}) {
-    const MadeFolder folder(Files{{"0.depth.npy", made_recording::npy(1, 2, type, data)}, {"0.pose.txt", pose}});
+    const MadeFolder folder(
+        Files{{"0.depth.npy", made_recording::npy(1, 2, type, data)}, {"0.pose.txt", matrix_of_pose}});
     const auto guess = guess_dataset(folder.path());
     ASSERT_TRUE(guess) << type;
     EXPECT_EQ(guess->description.depth.scale, scale) << type;
@@ -89,7 +91,7 @@ TEST(DatasetGuess, CloudsHavePosesOfTheFormThatTheirFirstLineHas) {
   };
   EXPECT_EQ(of("# x y z\n0 0 0 0 0 0 1\n"), PoseFormat::quaternion_xyzw);
   EXPECT_EQ(of("1.5 0 0 0 0 0 0 1\n"), PoseFormat::tum);
-  EXPECT_EQ(of(pose), PoseFormat::matrix4x4);
+  EXPECT_EQ(of(matrix_of_pose), PoseFormat::matrix4x4);
 }
 
 TEST(DatasetGuess, CloudsWithoutPosesAreKnownWhereTheyPlaceThemselves) {

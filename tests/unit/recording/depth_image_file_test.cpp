@@ -15,7 +15,7 @@ namespace {
 using namespace made_recording;
 using testing::HasSubstr;
 
-constexpr PinholeCamera intrinsics{0, 0, 2.0, 4.0, 1.0, 0.5};
+constexpr PinholeCamera six_pixels{0, 0, 2.0, 4.0, 1.0, 0.5};
 const std::vector<std::uint16_t> values = {0, 1, 1000, 2000, 65535, 300};  // 3 x 2
 
 /// The definition: depth along z, times the length of the ray through the pixel to z = 1.
@@ -37,14 +37,14 @@ void expect_values(const DepthImage& image) {
 
 TEST(DepthImageFile, EveryKindHoldsTheSameDepths) {
   const TemporaryFolder folder;
-  expect_values(read_depth_image(folder.write("a.png", depth_png(3, 2, values)), {}, intrinsics));
-  expect_values(read_depth_image(folder.write("a.pgm", pgm(3, 2, values)), {}, intrinsics));
-  expect_values(read_depth_image(folder.write("a.npy", npy(2, 3, "<u2", raw(values))), {}, intrinsics));
+  expect_values(read_depth_image(folder.write("a.png", depth_png(3, 2, values)), {}, six_pixels));
+  expect_values(read_depth_image(folder.write("a.pgm", pgm(3, 2, values)), {}, six_pixels));
+  expect_values(read_depth_image(folder.write("a.npy", npy(2, 3, "<u2", raw(values))), {}, six_pixels));
   DepthFormat bin;
   bin.width = 3, bin.height = 2, bin.offset = 8;
-  expect_values(read_depth_image(folder.write("a.bin", "12345678" + raw(values)), bin, intrinsics));
+  expect_values(read_depth_image(folder.write("a.bin", "12345678" + raw(values)), bin, six_pixels));
   write_gzip(folder / "a.bin.gz", "12345678" + raw(values));
-  expect_values(read_depth_image(folder / "a.bin.gz", bin, intrinsics));
+  expect_values(read_depth_image(folder / "a.bin.gz", bin, six_pixels));
 }
 
 TEST(DepthImageFile, FloatsAreNumbersBeyondOrNothing) {
@@ -53,7 +53,7 @@ TEST(DepthImageFile, FloatsAreNumbersBeyondOrNothing) {
   DepthFormat format;
   format.scale = 1.0, format.measures = DepthMeasures::range, format.zero = ZeroDepth::beyond;
   const auto file = folder.write("a.npy", npy(2, 3, "<f4", raw(reals)));
-  const DepthImage image = read_depth_image(file, format, intrinsics);
+  const DepthImage image = read_depth_image(file, format, six_pixels);
   EXPECT_EQ(image.range[0], 1.5f);
   EXPECT_TRUE(std::isnan(image.range[1]));
   EXPECT_TRUE(std::isinf(image.range[2]));
@@ -61,7 +61,7 @@ TEST(DepthImageFile, FloatsAreNumbersBeyondOrNothing) {
   EXPECT_TRUE(std::isinf(image.range[4]));
   EXPECT_EQ(image.range[5], 2.0f);
   format.width = 3, format.height = 2, format.type = RawType::float32;
-  EXPECT_EQ(read_depth_image(folder.write("a.raw", raw(reals)), format, intrinsics).range[5], 2.0f);
+  EXPECT_EQ(read_depth_image(folder.write("a.raw", raw(reals)), format, six_pixels).range[5], 2.0f);
 }
 
 TEST(DepthImageFile, RotatedBitsAreTurnedBack) {
@@ -71,7 +71,7 @@ TEST(DepthImageFile, RotatedBitsAreTurnedBack) {
   std::vector<std::uint16_t> stored;
   for (const unsigned depth : {8192u, 10000u, 1u, 0u})
     stored.push_back(static_cast<std::uint16_t>((depth << 3 | depth >> 13) & 65535u));
-  const DepthImage image = read_depth_image(folder.write("a.png", depth_png(4, 1, stored)), format, intrinsics);
+  const DepthImage image = read_depth_image(folder.write("a.png", depth_png(4, 1, stored)), format, six_pixels);
   EXPECT_FLOAT_EQ(image.range[0], 0.8192f);
   EXPECT_FLOAT_EQ(image.range[1], 1.0f);
   EXPECT_FLOAT_EQ(image.range[2], 1e-4f);
@@ -84,10 +84,10 @@ TEST(DepthImageFile, MaskedPixelsAreInvalid) {
   const ImageMask mask = read_mask(folder.write("mask.png", png(3, 2, 8, 0, rows)));
   EXPECT_EQ(mask.ignored, (std::vector<bool>{false, true, false, true, false, false}));
   const auto file = folder.write("a.png", depth_png(3, 2, {9, 9, 9, 9, 9, 9}));
-  const DepthImage image = read_depth_image(file, {}, intrinsics, &mask);
+  const DepthImage image = read_depth_image(file, {}, six_pixels, &mask);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(std::isnan(image.range[i]), mask.ignored[i]) << i;
   const ImageMask other{2, 2, {false, false, false, false}};
-  EXPECT_THAT(failure_of([&] { read_depth_image(file, {}, intrinsics, &other); }), HasSubstr("the mask 2 x 2"));
+  EXPECT_THAT(failure_of([&] { read_depth_image(file, {}, six_pixels, &other); }), HasSubstr("the mask 2 x 2"));
 }
 
 /// Rows of random bytes with every filter, of every kind of PNG, as stb's reader takes them.
@@ -118,7 +118,7 @@ TEST(DepthImageFile, WhatCannotBeRightIsOneLineThatNamesTheFile) {
   const TemporaryFolder folder;
   const auto why = [&](const std::string& name, const std::string& bytes, const DepthFormat& format = {}) {
     const auto file = folder.write(name, bytes);
-    const std::string text = failure_of([&] { read_depth_image(file, format, intrinsics); });
+    const std::string text = failure_of([&] { read_depth_image(file, format, six_pixels); });
     EXPECT_EQ(text.find('\n'), std::string::npos);
     EXPECT_THAT(text, testing::StartsWith(file.string() + ": "));
     return text;
@@ -146,13 +146,13 @@ TEST(DepthImageFile, WhatCannotBeRightIsOneLineThatNamesTheFile) {
 TEST(DepthImageFile, DamageIsSurvived) {
   const TemporaryFolder folder;
   const std::vector<std::uint16_t> many(40 * 30, 1234);
-  const auto read = [](const auto& file) { read_depth_image(file, {}, intrinsics); };
+  const auto read = [](const auto& file) { read_depth_image(file, {}, six_pixels); };
   survives_damage(folder, "a.png", depth_png(40, 30, many), read);
   survives_damage(folder, "a.npy", npy(30, 40, "<u2", raw(many)), read);
   survives_damage(folder, "a.pgm", pgm(40, 30, many), read);
   DepthFormat bin;
   bin.width = 40, bin.height = 30;
-  survives_damage(folder, "a.bin", raw(many), [&](const auto& file) { read_depth_image(file, bin, intrinsics); });
+  survives_damage(folder, "a.bin", raw(many), [&](const auto& file) { read_depth_image(file, bin, six_pixels); });
 }
 
 }  // namespace

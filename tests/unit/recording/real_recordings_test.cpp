@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 const fs::path scans = fs::path(NEXTVIEW_SHARED_DIR) / "data/scans";
 
-std::vector<DepthImage> images(const Recording& recording) {
+std::vector<DepthImage> depth_images(const Recording& recording) {
   std::vector<DepthImage> all;
   for (const RecordedFrame& frame : recording.frames) all.push_back(std::get<DepthImage>(frame.read()));
   return all;
@@ -44,7 +44,7 @@ TEST(RealRecordings, TheFramesOfTheCastleAgree) {
   ASSERT_EQ(recording.frames.size(), 20u);
   EXPECT_EQ(recording.frames[1].name, "Depth_0003");
   EXPECT_EQ(recording.points, 1401125u) << "values that are not 0, counted by another program";
-  const std::vector<DepthImage> all = images(recording);
+  const std::vector<DepthImage> all = depth_images(recording);
   for (std::size_t i = 0; i + 2 < all.size(); ++i)
     EXPECT_LT(
         disagreement(all[i], recording.frames[i].T_world_camera, all[i + 2], recording.frames[i + 2].T_world_camera),

@@ -30,7 +30,7 @@ void fill(octomap::ScanGraph& graph) {
 }
 
 /// In the world, as OctoMap itself puts points there.
-std::vector<Vector3> world_points(octomap::ScanNode& node) {
+std::vector<Vector3> points_by_octomap(octomap::ScanNode& node) {
   std::vector<Vector3> points;
   for (const auto& point : *node.scan) {
     const octomap::point3d p = node.pose.transform(point);
@@ -44,7 +44,7 @@ void expect_as_octomap(const std::filesystem::path& file, octomap::ScanGraph& gr
   ASSERT_EQ(nodes.size(), graph.size());
   auto expected = graph.begin();
   for (const ScanGraphNode& node : nodes) {
-    const std::vector<Vector3> points = read_scan_graph_points(file, node), there = world_points(**expected);
+    const std::vector<Vector3> points = read_scan_graph_points(file, node), there = points_by_octomap(**expected);
     ASSERT_EQ(points.size(), there.size());
     for (std::size_t i = 0; i < points.size(); ++i)
       ASSERT_LT((node.T_world_camera * points[i] - there[i]).norm(), 1e-5);
