@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 /// What load_mesh says of a file, after checking that it is one line that begins with the file's name, and that nothing
 /// was printed.
-std::string complaint(const std::filesystem::path& file, const MeshFileOptions& options = {}) {
+std::string quiet_complaint(const std::filesystem::path& file, const MeshFileOptions& options = {}) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   std::string message = "nothing";
@@ -37,14 +37,14 @@ std::string complaint(const std::filesystem::path& file, const MeshFileOptions& 
 
 TEST(BrokenMeshFile, whatIsNoFileSaysWhy) {
   const TemporaryFolder folder;
-  EXPECT_THAT(complaint(folder / "nowhere.ply"), HasSubstr("No such file"));
+  EXPECT_THAT(quiet_complaint(folder / "nowhere.ply"), HasSubstr("No such file"));
   std::filesystem::create_directory(folder / "folder.ply");
-  EXPECT_THAT(complaint(folder / "folder.ply"), HasSubstr("directory"));
+  EXPECT_THAT(quiet_complaint(folder / "folder.ply"), HasSubstr("directory"));
   ASSERT_EQ(::mkfifo((folder / "pipe.ply").c_str(), 0600), 0);
-  EXPECT_THAT(complaint(folder / "pipe.ply"), HasSubstr("pipe"));
-  EXPECT_THAT(complaint("/dev/zero"), HasSubstr("device"));
+  EXPECT_THAT(quiet_complaint(folder / "pipe.ply"), HasSubstr("pipe"));
+  EXPECT_THAT(quiet_complaint("/dev/zero"), HasSubstr("device"));
   std::filesystem::create_symlink(folder / "loop.ply", folder / "loop.ply");
-  EXPECT_NE(complaint(folder / "loop.ply"), "no complaint");
+  EXPECT_NE(quiet_complaint(folder / "loop.ply"), "no complaint");
 }
 
 TEST(BrokenMeshFile, withoutPermissionItSaysSo) {
@@ -54,7 +54,7 @@ TEST(BrokenMeshFile, withoutPermissionItSaysSo) {
   // The superuser may read everything, so it becomes somebody else for a moment.
   const bool superuser = ::geteuid() == 0;
   ASSERT_TRUE(!superuser || ::seteuid(65534) == 0);
-  const std::string said = complaint(file);
+  const std::string said = quiet_complaint(file);
   ASSERT_TRUE(!superuser || ::seteuid(0) == 0);
   EXPECT_THAT(said, HasSubstr("ermission"));
 }
@@ -62,14 +62,14 @@ TEST(BrokenMeshFile, withoutPermissionItSaysSo) {
 TEST(BrokenMeshFile, emptyUnknownOrTooLarge) {
   const TemporaryFolder folder;
   for (const auto& [name, bytes] : files::all()) {
-    EXPECT_THAT(complaint(folder.write(name, "")), HasSubstr("empty")) << name;
+    EXPECT_THAT(quiet_complaint(folder.write(name, "")), HasSubstr("empty")) << name;
     const auto file = folder.write(name, bytes);
-    EXPECT_THAT(complaint(file, {.largest_file = bytes.size() - 1}), HasSubstr("bytes")) << name;
-    EXPECT_EQ(complaint(file, {.largest_file = bytes.size()}), "no complaint") << name;
+    EXPECT_THAT(quiet_complaint(file, {.largest_file = bytes.size() - 1}), HasSubstr("bytes")) << name;
+    EXPECT_EQ(quiet_complaint(file, {.largest_file = bytes.size()}), "no complaint") << name;
   }
   for (const char* name : {"mesh.txt", "mesh.ply.bak", "mesh."})
-    EXPECT_THAT(complaint(folder.write(name, files::ply_text())), HasSubstr("no known mesh file type")) << name;
-  EXPECT_THAT(complaint(folder.write("mesh", files::ply_text())), HasSubstr("has no ending that says its type"));
+    EXPECT_THAT(quiet_complaint(folder.write(name, files::ply_text())), HasSubstr("no known mesh file type")) << name;
+  EXPECT_THAT(quiet_complaint(folder.write("mesh", files::ply_text())), HasSubstr("has no ending that says its type"));
 }
 
 TEST(BrokenMeshFile, garbageOfAnyType) {
@@ -79,7 +79,7 @@ TEST(BrokenMeshFile, garbageOfAnyType) {
     for (const auto& [name, bytes] : files::all()) {
       std::string garbage;
       for (std::size_t i = 0; i < size; ++i) garbage.push_back(char(int(256 * random.uniform(i)[0])));
-      EXPECT_NE(complaint(folder.write(name, garbage)), "no complaint") << name << " of " << size << " bytes";
+      EXPECT_NE(quiet_complaint(folder.write(name, garbage)), "no complaint") << name << " of " << size << " bytes";
     }
 }
 
@@ -88,7 +88,7 @@ TEST(BrokenMeshFile, truncatedAnywhere) {
   for (const auto& [name, bytes] : files::all())
     for (int tenth = 1; tenth < 10; ++tenth) {
       const std::string part = bytes.substr(0, bytes.size() * tenth / 10);
-      const std::string said = complaint(folder.write(name, part));
+      const std::string said = quiet_complaint(folder.write(name, part));
       // An OBJ announces nothing: what is cut between two lines is a mesh of its own.
       EXPECT_TRUE(name.ends_with(".obj") || said != "no complaint") << name << " after " << part.size() << " bytes";
     }
@@ -98,12 +98,12 @@ TEST(BrokenMeshFile, coordinatesThatAreNoNumbers) {
   const TemporaryFolder folder;
   for (const char* wrong : {"nan", "inf", "-inf", "1e39"}) {
     const std::string corner = std::string("v 0 ") + wrong + " 0\n";
-    EXPECT_THAT(complaint(folder.write("t.obj", corner + files::obj())), HasSubstr("not finite")) << wrong;
+    EXPECT_THAT(quiet_complaint(folder.write("t.obj", corner + files::obj())), HasSubstr("not finite")) << wrong;
   }
   std::string stl = files::stl_binary();
   stl.replace(84 + 12, 4, files::raw(std::nanf("")));
   EXPECT_EQ(
-      complaint(folder.write("t.stl", stl)),
+      quiet_complaint(folder.write("t.stl", stl)),
       "has coordinates that are not finite numbers, in 1 of 12 vertices: delete these in a mesh editor, close the "
       "holes that they leave, and save it again");
 }
@@ -118,21 +118,22 @@ TEST(BrokenMeshFile, withoutFaces) {
                                           {"lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n"},
                                           {"none.stl", "solid none\nendsolid none\n"},
                                           {"none_binary.stl", files::stl_binary(0).substr(0, 84)}})
-    EXPECT_NE(complaint(folder.write(name, bytes)), "no complaint") << name;
-  EXPECT_THAT(complaint(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n")), HasSubstr("no faces"));
-  EXPECT_THAT(complaint(folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n")),
+    EXPECT_NE(quiet_complaint(folder.write(name, bytes)), "no complaint") << name;
+  EXPECT_THAT(quiet_complaint(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\n")),
+              HasSubstr("no faces"));
+  EXPECT_THAT(quiet_complaint(folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n")),
               HasSubstr("degenerate"));
 }
 
 TEST(BrokenMeshFile, sizesThatCannotBeMeant) {
   const TemporaryFolder folder;
   const auto huge = folder.write("huge.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nf 1 2 3\n");
-  EXPECT_THAT(complaint(huge, {.longest_side = 0.0}), HasSubstr("longest side"));
-  EXPECT_EQ(complaint(huge, {.longest_side = 0.5}), "no complaint");
+  EXPECT_THAT(quiet_complaint(huge, {.longest_side = 0.0}), HasSubstr("longest side"));
+  EXPECT_EQ(quiet_complaint(huge, {.longest_side = 0.5}), "no complaint");
   const auto far = folder.write("far.obj", "v 1e9 0 0\nv 1000000500 0 0\nv 1e9 500 0\nf 1 2 3\n");
-  EXPECT_THAT(complaint(far), HasSubstr("precision"));
+  EXPECT_THAT(quiet_complaint(far), HasSubstr("precision"));
   const auto near = folder.write("near.obj", "v 1000 0 0\nv 1500 0 0\nv 1000 500 0\nf 1 2 3\n");
-  EXPECT_EQ(complaint(near), "no complaint");
+  EXPECT_EQ(quiet_complaint(near), "no complaint");
 }
 
 TEST(BrokenMeshFile, wrongIndices) {
@@ -140,9 +141,9 @@ TEST(BrokenMeshFile, wrongIndices) {
   for (const char* index : {"4", "-7", "4000000000"}) {
     const std::string face = std::string("3 0 1 ") + index + "\n";
     const std::string corners = "0 0 0\n1 0 0\n0 1 0\n";
-    EXPECT_NE(complaint(folder.write("t.ply", files::ply_header("ascii", 3, 1) + corners + face)), "no complaint")
+    EXPECT_NE(quiet_complaint(folder.write("t.ply", files::ply_header("ascii", 3, 1) + corners + face)), "no complaint")
         << index;
-    EXPECT_NE(complaint(folder.write("t.off", "OFF\n3 1 0\n" + corners + face)), "no complaint") << index;
+    EXPECT_NE(quiet_complaint(folder.write("t.off", "OFF\n3 1 0\n" + corners + face)), "no complaint") << index;
   }
 }
 
@@ -170,7 +171,7 @@ TEST(BrokenMeshFile, falseClaimsFailWithoutTakingMemory) {
   };
   const long before = std::max(memory(RUSAGE_SELF), memory(RUSAGE_CHILDREN));
   for (const auto& [name, bytes] : claims)
-    EXPECT_THAT(complaint(folder.write(name, bytes)), HasSubstr("claims")) << name;
+    EXPECT_THAT(quiet_complaint(folder.write(name, bytes)), HasSubstr("claims")) << name;
   EXPECT_LT(std::max(memory(RUSAGE_SELF), memory(RUSAGE_CHILDREN)) - before, 100 * 1024);
 }
 
@@ -180,8 +181,8 @@ TEST(BrokenMeshFile, whatCrashesTheReaderIsALineToo) {
   // Assimp.
   std::string archive = files::three_mf();
   archive.replace(archive.find("triangle v1"), 8, "trIangle");
-  EXPECT_NE(complaint(folder.write("checksum.3mf", archive)), "no complaint");
-  EXPECT_NE(complaint(folder.write("nothing.3mf", files::zip({{"a.txt", "hello"}}))), "no complaint");
+  EXPECT_NE(quiet_complaint(folder.write("checksum.3mf", archive)), "no complaint");
+  EXPECT_NE(quiet_complaint(folder.write("nothing.3mf", files::zip({{"a.txt", "hello"}}))), "no complaint");
 }
 
 /// Bytes changed, put in and cut off at random. Whatever comes of it, it is a whole mesh or one line.
@@ -200,7 +201,7 @@ TEST(BrokenMeshFile, randomDamage) {
         if (u[1] >= 0.97) damaged.resize(at + 1);
       }
       const auto file = folder.write(name, damaged);
-      if (complaint(file) != "no complaint") {
+      if (quiet_complaint(file) != "no complaint") {
         ++refused;
         continue;
       }

@@ -2,14 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/parts.hpp"
+#include "tests/unit/mesh/own_objects.hpp"
 #include "tests/unit/mesh/temporary_folder.hpp"
 
 namespace nextview {
 namespace {
 
 using testing::HasSubstr;
-
-const std::filesystem::path objects = std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets/objects";
 
 void expect_same(const std::vector<Opening>& read, const std::vector<Opening>& written) {
   ASSERT_EQ(read.size(), written.size());
@@ -25,7 +24,7 @@ void expect_same(const std::vector<Opening>& read, const std::vector<Opening>& w
 }
 
 /// What read_openings says of a file, after checking that it is one line that begins with the file's name.
-std::string complaint(const std::filesystem::path& file) {
+std::string openings_complaint(const std::filesystem::path& file) {
   try {
     read_openings(file);
   } catch (const std::runtime_error& error) {
@@ -39,7 +38,7 @@ std::string complaint(const std::filesystem::path& file) {
 
 TEST(OpeningsFile, theFilesBesideOurPartsAreReadBack) {
   for (const Part& part : {slotted_plate(), slotted_housing()})
-    expect_same(read_openings(objects / (part.name + ".json")), part.openings);
+    expect_same(read_openings(own_objects / (part.name + ".json")), part.openings);
 }
 
 TEST(OpeningsFile, whatIsWrittenIsReadToTheLastBit) {
@@ -60,10 +59,10 @@ TEST(OpeningsFile, whatIsWrittenIsReadToTheLastBit) {
 
 TEST(OpeningsFile, whatIsNoFileSaysWhy) {
   const TemporaryFolder folder;
-  EXPECT_THAT(complaint(folder / "nowhere.json"), HasSubstr("No such file"));
+  EXPECT_THAT(openings_complaint(folder / "nowhere.json"), HasSubstr("No such file"));
   std::filesystem::create_directory(folder / "folder.json");
-  EXPECT_THAT(complaint(folder / "folder.json"), HasSubstr("directory"));
-  EXPECT_THAT(complaint(folder.write("large.json", std::string(2 << 20, ' '))), HasSubstr("bytes"));
+  EXPECT_THAT(openings_complaint(folder / "folder.json"), HasSubstr("directory"));
+  EXPECT_THAT(openings_complaint(folder.write("large.json", std::string(2 << 20, ' '))), HasSubstr("bytes"));
 }
 
 TEST(OpeningsFile, truncatedAnywhereItIsRefused) {
@@ -71,16 +70,17 @@ TEST(OpeningsFile, truncatedAnywhereItIsRefused) {
   std::string text = openings_json(slotted_housing());
   text.erase(text.find_last_of('}') + 1);
   for (std::size_t size = 0; size < text.size(); ++size)
-    ASSERT_THAT(complaint(folder.write("cut.json", text.substr(0, size))), HasSubstr("truncated")) << size;
-  EXPECT_EQ(complaint(folder.write("whole.json", text)), "no complaint");
+    ASSERT_THAT(openings_complaint(folder.write("cut.json", text.substr(0, size))), HasSubstr("truncated")) << size;
+  EXPECT_EQ(openings_complaint(folder.write("whole.json", text)), "no complaint");
 }
 
 TEST(OpeningsFile, whatIsNoJsonSaysWhere) {
   const TemporaryFolder folder;
-  EXPECT_EQ(complaint(folder.write("a.json", "{\"unit\": m}")), "is no JSON from byte 10 on");
-  EXPECT_THAT(complaint(folder.write("b.json", "ply\nformat ascii 1.0\n")), HasSubstr("no JSON from byte 1 on"));
-  EXPECT_THAT(complaint(folder.write("c.json", "{\"\xff\n\x01\": 1}")), HasSubstr("no JSON"));
-  EXPECT_THAT(complaint(folder.write("d.json", std::string(1 << 20, '['))), HasSubstr("truncated"));
+  EXPECT_EQ(openings_complaint(folder.write("a.json", "{\"unit\": m}")), "is no JSON from byte 10 on");
+  EXPECT_THAT(openings_complaint(folder.write("b.json", "ply\nformat ascii 1.0\n")),
+              HasSubstr("no JSON from byte 1 on"));
+  EXPECT_THAT(openings_complaint(folder.write("c.json", "{\"\xff\n\x01\": 1}")), HasSubstr("no JSON"));
+  EXPECT_THAT(openings_complaint(folder.write("d.json", std::string(1 << 20, '['))), HasSubstr("truncated"));
 }
 
 /// The plate's file with one piece of its text replaced, the first time that it appears.
@@ -124,7 +124,7 @@ TEST(OpeningsFile, wrongTypesAndValuesAreNamed) {
       {with("[0, 1, 0]", "[0, 0, 1]"), {"opening 0", "right angles"}},
   };
   for (const Case& each : cases) {
-    const std::string said = complaint(folder.write("wrong.json", each.text));
+    const std::string said = openings_complaint(folder.write("wrong.json", each.text));
     for (const std::string& part : each.says) EXPECT_THAT(said, HasSubstr(part)) << each.text;
   }
 }
@@ -184,7 +184,7 @@ TEST(PlacedMesh, openingsGoWhereTheirMeshGoes) {
 
 TEST(PlacedMesh, ourPartsStayWhereTheyAre) {
   for (const char* name : {"slotted_plate.ply", "slotted_housing.ply"}) {
-    const MeshPlacement placement = load_placed_mesh(objects / name).placement;
+    const MeshPlacement placement = load_placed_mesh(own_objects / name).placement;
     EXPECT_EQ(placement.centre, Eigen::Vector3d(0, 0, 0));
     EXPECT_EQ(placement.scale, 1.0);
   }

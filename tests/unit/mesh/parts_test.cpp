@@ -9,11 +9,10 @@
 #include <numbers>
 
 #include "core/mesh/mesh_file.hpp"
+#include "tests/unit/mesh/own_objects.hpp"
 
 namespace nextview {
 namespace {
-
-const std::filesystem::path objects = std::filesystem::path(NEXTVIEW_SOURCE_DIR) / "assets/objects";
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -46,15 +45,15 @@ class Parts : public testing::TestWithParam<Expected> {};
 
 TEST_P(Parts, theCommittedFileIsWhatTheGeneratorMakes) {
   const Part& part = GetParam().part;
-  EXPECT_EQ(content(objects / (part.name + ".ply")), ply_bytes(part.mesh));
+  EXPECT_EQ(content(own_objects / (part.name + ".ply")), ply_bytes(part.mesh));
   if (part.openings.empty()) return;
-  EXPECT_EQ(content(objects / (part.name + ".json")), openings_json(part));
+  EXPECT_EQ(content(own_objects / (part.name + ".json")), openings_json(part));
 }
 
 TEST_P(Parts, loadsUnchangedAtItsTrueSize) {
   const Part& part = GetParam().part;
   for (const double longest_side : {0.5, 0.0}) {
-    const TriangleMesh loaded = load_mesh(objects / (part.name + ".ply"), {.longest_side = longest_side});
+    const TriangleMesh loaded = load_mesh(own_objects / (part.name + ".ply"), {.longest_side = longest_side});
     ASSERT_EQ(loaded.triangles.size(), part.mesh.triangles.size());
     for (std::size_t t = 0; t < loaded.triangles.size(); ++t)
       for (int i = 0; i < 3; ++i)
@@ -86,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(SpherePart, isWithinItsFacetsOfASphere) {
   const Part part = sphere_part();
-  EXPECT_EQ(content(objects / "sphere.ply"), ply_bytes(part.mesh));
+  EXPECT_EQ(content(own_objects / "sphere.ply"), ply_bytes(part.mesh));
   EXPECT_EQ(part.mesh.triangles.size(), 20u * 4 * 4 * 4 * 4 * 4);
   EXPECT_EQ(topology(part.mesh).summary(), "watertight");
   EXPECT_EQ(part.mesh.bounding_box().sizes(), Eigen::Vector3d(0.5, 0.5, 0.5));
@@ -120,7 +119,7 @@ class Openings : public testing::TestWithParam<Part> {};
 
 TEST_P(Openings, areWhereTheDescriptionSaysAndNowhereElse) {
   const Part part = GetParam();
-  const auto description = nlohmann::json::parse(content(objects / (part.name + ".json")));
+  const auto description = nlohmann::json::parse(content(own_objects / (part.name + ".json")));
   ASSERT_EQ(description["openings"].size(), 8u);
   EXPECT_EQ(description["unit"], "m");
   std::map<std::string, std::vector<double>> widths;

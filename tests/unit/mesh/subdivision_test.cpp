@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/unit/map/closed_meshes.hpp"
+#include "tests/unit/mesh/unshared.hpp"
 
 namespace nextview {
 namespace {
@@ -17,17 +18,6 @@ double longest_edge(const TriangleMesh& mesh) {
       longest =
           std::max(longest, (mesh.vertices[t[k]].cast<double>() - mesh.vertices[t[(k + 1) % 3]].cast<double>()).norm());
   return longest;
-}
-
-/// Every triangle with corners of its own, as STL has them.
-TriangleMesh unshared(const TriangleMesh& mesh) {
-  TriangleMesh copy;
-  for (const auto& triangle : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(copy.vertices.size());
-    for (const std::uint32_t vertex : triangle) copy.vertices.push_back(mesh.vertices[vertex]);
-    copy.triangles.push_back({first, first + 1, first + 2});
-  }
-  return copy;
 }
 
 /// A closed mesh of long and short, thin and thick triangles: a sphere pulled about.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/mesh/unshared.hpp"
+
 namespace nextview {
 namespace {
 
@@ -12,17 +14,6 @@ TriangleMesh cube() {
   mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                     {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   return mesh;
-}
-
-/// Every triangle with corners of its own, as STL has them.
-TriangleMesh unshared(const TriangleMesh& mesh) {
-  TriangleMesh copy;
-  for (const auto& triangle : mesh.triangles) {
-    const auto first = static_cast<std::uint32_t>(copy.vertices.size());
-    for (const std::uint32_t vertex : triangle) copy.vertices.push_back(mesh.vertices[vertex]);
-    copy.triangles.push_back({first, first + 1, first + 2});
-  }
-  return copy;
 }
 
 TEST(TriangleMesh, boundsAndAreaOfACube) {
