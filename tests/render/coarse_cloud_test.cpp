@@ -21,7 +21,7 @@ PointCloud ball(int count) {
   return points;
 }
 
-Image drawn(int count, bool coarse, bool and_back = false) {
+Image drawn_ball(int count, bool coarse, bool and_back = false) {
   return draw_scene(320, 240, [&](Scene& scene) {
     scene.cloud().show(ball(count));
     if (and_back) scene.cloud().set_coarse(!coarse);
@@ -38,21 +38,21 @@ double covered(const Image& image) {
 }
 
 TEST(CoarseClouds, CoverAboutAsMuch) {
-  const double fine = covered(drawn(20'000, false)), coarse = covered(drawn(20'000, true));
+  const double fine = covered(drawn_ball(20'000, false)), coarse = covered(drawn_ball(20'000, true));
   EXPECT_GT(fine, 0.1);
   EXPECT_NEAR(coarse, fine, 0.1 * fine);
 }
 
 TEST(CoarseClouds, AreOtherPicturesAndTheSameOnesAfterwards) {
-  const Image fine = drawn(20'000, false);
-  EXPECT_NE(fine, drawn(20'000, true));
-  EXPECT_EQ(fine, drawn(20'000, false, true));
+  const Image fine = drawn_ball(20'000, false);
+  EXPECT_NE(fine, drawn_ball(20'000, true));
+  EXPECT_EQ(fine, drawn_ball(20'000, false, true));
 }
 
 TEST(CoarseClouds, OfFewPointsKeepThemAll) {
-  const double few = covered(drawn(900, false));
+  const double few = covered(drawn_ball(900, false));
   EXPECT_GT(few, 0.01);
-  EXPECT_GT(covered(drawn(900, true)), few) << "squares cover more than balls";
+  EXPECT_GT(covered(drawn_ball(900, true)), few) << "squares cover more than balls";
 }
 
 /// A section that comes while one of the two is drawn, and what the other looks like then.
@@ -67,7 +67,7 @@ Image cut(bool coarse_before, bool coarse) {
 }
 
 TEST(CoarseClouds, AreCutWhicheverIsDrawnThen) {
-  EXPECT_LT(covered(cut(false, false)), 0.8 * covered(drawn(20'000, false)));
+  EXPECT_LT(covered(cut(false, false)), 0.8 * covered(drawn_ball(20'000, false)));
   for (const bool coarse : {false, true}) EXPECT_EQ(cut(!coarse, coarse), cut(coarse, coarse)) << coarse;
 }
 

@@ -7,10 +7,8 @@
 namespace nextview {
 namespace {
 
-const Vector3 viewer(0.5, -0.8, 0.4);
-
 TEST(Render, octree_colourings) {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   const auto errors = samples::errors(map), differences = samples::differences(map);
   const auto show = [&](const VoxelFilter& filter, VoxelColouring colouring, std::span<const float> values = {}) {
     return [&map, filter, colouring, values](Scene& scene) {
@@ -33,7 +31,8 @@ TEST(Render, octree_colourings) {
 }
 
 TEST(Render, cloud_colourings) {
-  const std::vector<Vector3> viewers{viewer, {-0.4, -0.9, 0.3}, {0.9, -0.2, -0.3}, {0.1, -0.6, 0.9}, {0.8, 0.7, 0.5}};
+  const std::vector<Vector3> viewers{
+      samples::usual_viewer, {-0.4, -0.9, 0.3}, {0.9, -0.2, -0.3}, {0.1, -0.6, 0.9}, {0.8, 0.7, 0.5}};
   const auto scanned = samples::scanned_cloud(viewers);
   const auto show = [&](CloudColouring colouring) {
     return [&scanned, colouring](Scene& scene) {
@@ -48,7 +47,7 @@ TEST(Render, cloud_colourings) {
 
 RENDER_TEST(missed_surface, 960, 600, {
   const auto mesh = samples::torus();
-  const auto classes = samples::seen_classes(mesh, {viewer, {-0.4, -0.9, 0.3}});
+  const auto classes = samples::seen_classes(mesh, {samples::usual_viewer, {-0.4, -0.9, 0.3}});
   const auto hidden = mix(theme::object, theme::ink, 0.55);
   scene.mesh().show(
       mesh, MeshClasses{
@@ -58,11 +57,11 @@ RENDER_TEST(missed_surface, 960, 600, {
 
 /// All layers, ranges locked, a custom view.
 void show_everything(Scene& scene) {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   const auto candidates = samples::candidates();
-  const auto scores = samples::scores(candidates, viewer);
+  const auto scores = samples::scores(candidates, samples::usual_viewer);
   const std::vector<std::size_t> taken{36, 22};
-  const std::vector<Pose> path{look_at(viewer, Vector3::Zero()), candidates[36], candidates[22]};
+  const std::vector<Pose> path{look_at(samples::usual_viewer, Vector3::Zero()), candidates[36], candidates[22]};
   const Pose own = look_at(Vector3(-0.75, -0.55, 0.35), Vector3::Zero());
   ViewsPicture views;
   views.camera = PinholeCamera::from_field_of_view(640, 480, 1.0123);
@@ -78,7 +77,7 @@ void show_everything(Scene& scene) {
   views.range = ValueRange{0.0, 2000.0};
   scene.mesh().show(samples::torus(), MeshStyle::ghost);
   scene.octree().show(map.grid, map.voxels, {}, VoxelColouring::by_entropy);
-  scene.cloud().show({samples::cloud(viewer)});
+  scene.cloud().show({samples::cloud(samples::usual_viewer)});
   scene.views().show(views);
   scene.rays().show(samples::rays(own), {"contribution of a ray", "nats", 0.5});
   scene.region().show({map.grid.lower(), map.grid.upper()});

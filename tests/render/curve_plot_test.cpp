@@ -11,11 +11,11 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 640, height = 400, column = 200;  // of a page and of the names beside a plot [px]
+constexpr int plot_width = 640, plot_height = 400, column = 200;  // of a page and of the names beside a plot [px]
 
 Image drawn(const CurvePlot& plot) {
-  return draw_page(width, height, [&](vtkContext2D& context) {
-    paint_curve_plot(context, {0, 0, width, height}, plot);
+  return draw_page(plot_width, plot_height, [&](vtkContext2D& context) {
+    paint_curve_plot(context, {0, 0, plot_width, plot_height}, plot);
   });
 }
 
@@ -31,13 +31,13 @@ CurvePlot rising(double names_width) {
 
 /// Where pictures differ: [first, last] column, and how many pixels.
 struct Difference {
-  int first = width, last = -1, pixels = 0;
+  int first = plot_width, last = -1, pixels = 0;
 };
 Difference difference(const Image& a, const Image& b) {
   Difference found;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t at = (std::size_t(y) * width + x) * 4;
+  for (int y = 0; y < plot_height; ++y)
+    for (int x = 0; x < plot_width; ++x) {
+      const std::size_t at = (std::size_t(y) * plot_width + x) * 4;
       if (std::equal(&a.rgba[at], &a.rgba[at] + 4, &b.rgba[at])) continue;
       found.first = std::min(found.first, x), found.last = std::max(found.last, x), ++found.pixels;
     }
@@ -68,12 +68,12 @@ TEST(CurvePlot, NamesAndTheirDetailsStandInTheColumnBesideIt) {
   plot.curves[0].name.clear();
   const Difference of_name = difference(named, drawn(plot));
   EXPECT_GT(of_name.pixels, 50) << "four letters";
-  EXPECT_GE(of_name.first, width - column) << "in the column";
+  EXPECT_GE(of_name.first, plot_width - column) << "in the column";
   plot.curves[0].name = "name";
   plot.curves[0].details = {"detail"};
   const Difference of_details = difference(named, drawn(plot));
   EXPECT_GT(of_details.pixels, 50);
-  EXPECT_GE(of_details.first, width - column);
+  EXPECT_GE(of_details.first, plot_width - column);
 }
 
 TEST(CurvePlot, NamesStandAboveItWhereThereIsNoColumn) {
@@ -105,8 +105,8 @@ TEST(CurvePlot, ACurveNeedsAsManyOfEach) {
   CurvePlot plot = rising(0);
   plot.curves[0].y.pop_back();
   bool refused = false;
-  draw_page(width, height, [&](vtkContext2D& context) {
-    EXPECT_THROW(paint_curve_plot(context, {0, 0, width, height}, plot), std::invalid_argument);
+  draw_page(plot_width, plot_height, [&](vtkContext2D& context) {
+    EXPECT_THROW(paint_curve_plot(context, {0, 0, plot_width, plot_height}, plot), std::invalid_argument);
     refused = true;
   });
   EXPECT_TRUE(refused) << "nothing was painted";
@@ -141,9 +141,9 @@ TEST(Chart, OnALargerPageLettersAndLinesAreLarger) {
 
 TEST(Page, WhatCannotBePaintedIsToldToWhoAsked) {
   for (int again = 0; again < 3; ++again)
-    EXPECT_THROW(draw_page(width, height, [](vtkContext2D&) { throw std::invalid_argument("no"); }),
+    EXPECT_THROW(draw_page(plot_width, plot_height, [](vtkContext2D&) { throw std::invalid_argument("no"); }),
                  std::invalid_argument);
-  EXPECT_EQ(drawn(rising(0)).width, width) << "and the next page can be";
+  EXPECT_EQ(drawn(rising(0)).width, plot_width) << "and the next page can be";
 }
 
 TEST(Chart, EachStandsInItsPartOfThePage) {

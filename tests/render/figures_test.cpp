@@ -45,10 +45,9 @@ StepPicture step(const TriangleMesh& object, const samples::Map& map, const Vect
 }
 
 TEST(Figures, StepFigure) {
-  const Vector3 viewer(0.5, -0.8, 0.4);
   const TriangleMesh object = samples::torus();
-  const samples::Map map = samples::map(viewer);
-  expect_screenshot("step_figure", draw_step_figure(step(object, map, viewer)));
+  const samples::Map map = samples::map(samples::usual_viewer);
+  expect_screenshot("step_figure", draw_step_figure(step(object, map, samples::usual_viewer)));
 }
 
 TEST(Figures, Chart) {

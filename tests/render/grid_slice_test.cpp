@@ -7,14 +7,14 @@
 namespace nextview {
 namespace {
 
-constexpr double edge = 0.01;
+constexpr double voxel_edge = 0.01;
 
-VoxelGrid grid_of(int x, int y, int z) { return {edge, {-3, 2, 0}, {x, y, z}}; }
+VoxelGrid grid_of(int x, int y, int z) { return {voxel_edge, {-3, 2, 0}, {x, y, z}}; }
 
 Voxel measured(float p) { return {p, float(entropy(p)), VoxelClass::unknown, true, 0}; }
 
 /// The colour of the pixel `x` to the right and `y` up, as 0xRRGGBB.
-std::uint32_t pixel(const Image& image, int x, int y) {
+std::uint32_t colour_at(const Image& image, int x, int y) {
   const std::uint8_t* p = &image.rgba[(std::size_t(image.height - 1 - y) * image.width + x) * 4];
   return std::uint32_t(p[0]) << 16 | std::uint32_t(p[1]) << 8 | p[2];
 }
@@ -28,7 +28,7 @@ SliceContent content_of(const VoxelGrid& grid, const GridSlice& slice, std::span
 }
 
 TEST(GridSlice, AnOpeningIsCutAcrossItsLength) {
-  const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.64, edge);
+  const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.64, voxel_edge);
   Opening opening;
   opening.width = 0.02;
   opening.length = 0.12;
@@ -86,8 +86,8 @@ TEST(GridSlice, TheLargestDifferenceIsFound) {
 
 TEST(GridSlice, ACrossSectionOfABoxIsItsRectangle) {
   const Part box = box_part();
-  const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.64, edge);
-  const Vector3 size = box.mesh.bounding_box().sizes() / edge;
+  const VoxelGrid grid = region_of_interest(Vector3::Zero(), 0.64, voxel_edge);
+  const Vector3 size = box.mesh.bounding_box().sizes() / voxel_edge;
   for (int axis = 0; axis < 3; ++axis) {
     const GridSlice slice = whole_layer(grid, axis, 32);
     double length = 0.0;
@@ -114,17 +114,17 @@ TEST(SliceSquares, AreCrispAndInTheirPlaces) {
   const Image image = slice_squares(content_of(grid, whole_layer(grid, 2, 1), voxels), 5);
   ASSERT_EQ(image.width, 15);
   ASSERT_EQ(image.height, 20);
-  const std::uint32_t free = pixel(image, 14, 19), occupied = pixel(image, 7, 12);
+  const std::uint32_t free = colour_at(image, 14, 19), occupied = colour_at(image, 7, 12);
   EXPECT_NE(free, occupied);
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 15; ++x) {
       const bool in_occupied = x / 5 == 1 && y / 5 == 2, unmeasured = x / 5 == 0 && y / 5 == 0;
       if (unmeasured)
-        EXPECT_NE(pixel(image, x, y), free) << x << ", " << y;
+        EXPECT_NE(colour_at(image, x, y), free) << x << ", " << y;
       else
-        EXPECT_EQ(pixel(image, x, y), in_occupied ? occupied : free) << x << ", " << y;
+        EXPECT_EQ(colour_at(image, x, y), in_occupied ? occupied : free) << x << ", " << y;
     }
-  EXPECT_NE(pixel(image, 0, 0), pixel(image, 1, 0)) << "hatched, not plain";
+  EXPECT_NE(colour_at(image, 0, 0), colour_at(image, 1, 0)) << "hatched, not plain";
 }
 
 TEST(SliceSquares, ADifferenceIsOfNoColourWhereMapsAgree) {
@@ -151,7 +151,7 @@ TEST(SliceSquares, ADifferenceIsHatchedWhereNeitherMapHasMeasured) {
   const auto plain = [&](int voxel) {
     for (int x = 0; x < 7; ++x)
       for (int y = 0; y < 7; ++y)
-        if (pixel(image, 7 * voxel + x, y) != pixel(image, 7 * voxel, 0)) return false;
+        if (colour_at(image, 7 * voxel + x, y) != colour_at(image, 7 * voxel, 0)) return false;
     return true;
   };
   EXPECT_TRUE(plain(0) && plain(1) && plain(2));
@@ -164,7 +164,7 @@ std::vector<std::pair<int, int>> parts_of_row(const Image& image, int bottom, in
   std::vector<std::pair<int, int>> parts;
   for (int x = 20; x < image.width - 20; ++x) {  // within the panel's frame
     bool ink = false;
-    for (int y = bottom; y < top; ++y) ink |= (pixel(image, x, y) & 0xFF) < 0xF0;
+    for (int y = bottom; y < top; ++y) ink |= (colour_at(image, x, y) & 0xFF) < 0xF0;
     if (!ink) continue;
     if (parts.empty() || x > parts.back().second + gap) parts.emplace_back(x, x);
     parts.back().second = x;
@@ -214,7 +214,7 @@ TEST(SliceSquares, ReachThePageUnchanged) {
   const Image page = draw_page(64, 48, [&](vtkContext2D& context) { paint_image(context, 5, 7, squares); });
   for (int y = 0; y < squares.height; ++y)
     for (int x = 0; x < squares.width; ++x)
-      ASSERT_EQ(pixel(page, x + 5, y + 7), pixel(squares, x, y)) << x << ", " << y;
+      ASSERT_EQ(colour_at(page, x + 5, y + 7), colour_at(squares, x, y)) << x << ", " << y;
 }
 
 TEST(Page, ClipsToABox) {

@@ -12,7 +12,6 @@
 namespace nextview {
 namespace {
 
-const Vector3 viewer(0.5, -0.8, 0.4);
 const float none = std::nanf("");
 
 Voxel voxel(float p) { return {p, float(entropy(p)), InverseSensorModel{}.classify(p), true, 0}; }
@@ -39,7 +38,7 @@ TEST(VoxelPalette, ColoursFollowTheirMaps) {
 
 TEST(OctreeLayer, LegendsSayWhatTheEndsMeanAndWhatHasNoValue) {
   draw_scene(64, 64, [](Scene& scene) {
-    const auto map = samples::map(viewer);
+    const auto map = samples::map(samples::usual_viewer);
     std::vector<float> values(map.voxels.size(), 0.2f);
     const auto legend = [&](VoxelColouring colouring) {
       scene.octree().set_colouring(colouring, values);
@@ -62,7 +61,7 @@ TEST(OctreeLayer, LegendsSayWhatTheEndsMeanAndWhatHasNoValue) {
 }
 
 TEST(OctreeLayer, OtherValuesLaterDrawTheSameAsAtOnce) {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   const auto errors = samples::errors(map), differences = samples::differences(map);
   OffscreenTarget target(320, 200);
   const auto draw = [&](bool later) {
@@ -118,7 +117,7 @@ TEST(ViewsLayer, ALockedRangeKeepsItsColoursAndSaysSo) {
     picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
     picture.candidates = candidates;
     picture.scores = scores;
-    picture.custom_view = look_at(viewer, Vector3::Zero());
+    picture.custom_view = look_at(samples::usual_viewer, Vector3::Zero());
     scene.views().show(picture);
     EXPECT_FALSE(scene.views().legends()[0].locked);
     EXPECT_EQ(scene.views().legends()[1].swatches.at(0).name, "custom view");

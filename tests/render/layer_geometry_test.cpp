@@ -12,11 +12,11 @@
 namespace nextview {
 namespace {
 
-struct RandomMap {
+struct RandomClasses {
   VoxelGrid grid{0.1, {-3, 2, 5}, {6, 5, 4}};
   std::vector<Voxel> voxels{grid.voxel_count()};
 
-  explicit RandomMap(std::uint64_t seed) {
+  explicit RandomClasses(std::uint64_t seed) {
     for (std::uint32_t i = 0; i < voxels.size(); ++i) {
       const auto draw = CounterRandom(seed, 901).uniform(i);
       voxels[i].measured = draw[0] < 0.8;
@@ -26,7 +26,7 @@ struct RandomMap {
 };
 
 TEST(VoxelFaces, AreTheBoundaryOfTheShownVoxels) {
-  const RandomMap map(3);
+  const RandomClasses map(3);
   VoxelFilter cut{true, true, true}, cut_slice{true, true, true};
   cut.section = Section{0, map.grid.lower().x() + 0.3, true};
   cut_slice.section = Section{1, map.grid.lower().y() + 0.3, false};

@@ -4,8 +4,6 @@
 namespace nextview {
 namespace {
 
-const Vector3 viewer(0.5, -0.8, 0.4);
-
 ViewsPicture views(const std::vector<Pose>& candidates, const std::vector<double>& scores) {
   ViewsPicture picture;
   picture.camera = PinholeCamera::from_field_of_view(640, 480, 1.0123);
@@ -32,33 +30,33 @@ RENDER_TEST(mesh_ghost, 960, 600, {
 })
 
 RENDER_TEST(cloud, 960, 600, {
-  scene.cloud().show(samples::cloud(viewer));
+  scene.cloud().show(samples::cloud(samples::usual_viewer));
   scene.frame();
 })
 
 RENDER_TEST(octree_by_class, 960, 600, {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   scene.octree().show(map.grid, map.voxels);
   scene.frame();
 })
 
 RENDER_TEST(octree_by_probability, 960, 600, {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   scene.octree().show(map.grid, map.voxels, {}, VoxelColouring::by_probability);
   scene.frame();
 })
 
 RENDER_TEST(octree_with_free_space, 960, 600, {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   scene.octree().show(map.grid, map.voxels, {true, true, true});
   scene.frame();
 })
 
 RENDER_TEST(views_scored, 960, 600, {
   const auto candidates = samples::candidates();
-  const auto scores = samples::scores(candidates, viewer);
+  const auto scores = samples::scores(candidates, samples::usual_viewer);
   const std::vector<std::size_t> taken{36, 22};
-  const std::vector<Pose> path{look_at(viewer, Vector3::Zero()), candidates[36], candidates[22]};
+  const std::vector<Pose> path{look_at(samples::usual_viewer, Vector3::Zero()), candidates[36], candidates[22]};
   auto picture = views(candidates, scores);
   picture.taken = taken;
   picture.path = path;

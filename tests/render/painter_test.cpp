@@ -10,7 +10,7 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 260, height = 120;  // of the page [px]; a legend of usual width fits
+constexpr int page_width = 260, page_height = 120;  // of the page [px]; a legend of usual width fits
 
 /// The pixel `x` to the right and `y` up.
 const std::uint8_t* pixel(const Image& page, int x, int y) {
@@ -24,7 +24,7 @@ bool painted(const Image& page, int x, int y) {
 }
 
 Image page_of(const std::function<void(Painter&)>& paint, double scale = 1.0) {
-  return draw_page(int(width * scale), int(height * scale), [&](vtkContext2D& context) {
+  return draw_page(int(page_width * scale), int(page_height * scale), [&](vtkContext2D& context) {
     Painter painter(context, scale);
     paint(painter);
   });
@@ -32,8 +32,8 @@ Image page_of(const std::function<void(Painter&)>& paint, double scale = 1.0) {
 
 TEST(Painter, AFrameIsFourSidesWithNothingWithinOrOutside) {
   const Image page = page_of([](Painter& painter) { painter.frame(60, 30, 90, 50, theme::ink); });
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < page_height; ++y)
+    for (int x = 0; x < page_width; ++x) {
       // A line of one pixel between two of them may lie on both.
       const bool beyond = x < 59 || x > 151 || y < 29 || y > 81;
       const bool within = x > 61 && x < 148 && y > 31 && y < 78;
@@ -118,8 +118,8 @@ TEST(Painter, StripesLieOnTheirSwatchAndNowhereElse) {
   legend.swatches[0].stripes = Colour{0.0, 0.0, 0.6};
   const Image striped = draw();
   int changed = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < page_height; ++y)
+    for (int x = 0; x < page_width; ++x) {
       if (std::equal(pixel(plain, x, y), pixel(plain, x, y) + 3, pixel(striped, x, y))) continue;
       ++changed;
       // The swatch is 13 px wide and high, and its legend's line 20 px.

@@ -6,10 +6,8 @@
 namespace nextview {
 namespace {
 
-const Vector3 viewer(0.5, -0.8, 0.4);
-
 void show_map(Scene& scene, VoxelColouring colouring) {
-  const auto map = samples::map(viewer);
+  const auto map = samples::map(samples::usual_viewer);
   scene.octree().show(map.grid, map.voxels, {}, colouring);
 }
 
@@ -21,7 +19,7 @@ TEST(SamePicture, AHiddenLayerIsAsIfNeverShown) {
   });
   const Image hidden = draw_scene(target, [](Scene& scene) {
     scene.mesh().show(samples::torus());
-    scene.rays().show(samples::rays(look_at(viewer, Vector3::Zero())), {});
+    scene.rays().show(samples::rays(look_at(samples::usual_viewer, Vector3::Zero())), {});
     scene.region().show({Vector3::Constant(-0.5), Vector3::Constant(0.5)});
     scene.rays().set_visible(false);
     scene.region().set_visible(false);
@@ -38,7 +36,7 @@ TEST(SamePicture, ShowingAgainReplacesWhatWasShown) {
     scene.frame();
   });
   const Image again = draw_scene(target, [](Scene& scene) {
-    scene.cloud().show(samples::cloud(viewer));
+    scene.cloud().show(samples::cloud(samples::usual_viewer));
     show_map(scene, VoxelColouring::by_probability);
     show_map(scene, VoxelColouring::by_class);
     scene.cloud().show({{0.0f, 0.0f, 0.1f}});
@@ -67,14 +65,14 @@ TEST(SamePicture, ColouringAndStyleCanChangeLater) {
 /// Everything, moved by so many voxels along each axis; the camera is framed anew, and so moves along.
 Image draw_moved(RenderTarget& target, const Eigen::Vector3i& voxels) {
   return draw_scene(target, [&](Scene& scene) {
-    auto map = samples::map(viewer);
+    auto map = samples::map(samples::usual_viewer);
     map.grid.first += voxels;
     const Vector3 by = voxels.cast<double>() * map.grid.resolution;
     TriangleMesh torus = samples::torus();
     for (auto& vertex : torus.vertices) vertex += by.cast<float>();
-    PointCloud cloud = samples::cloud(viewer);
+    PointCloud cloud = samples::cloud(samples::usual_viewer);
     for (auto& point : cloud) point += by.cast<float>();
-    auto rays = samples::rays(look_at(viewer, Vector3::Zero()));
+    auto rays = samples::rays(look_at(samples::usual_viewer, Vector3::Zero()));
     for (RaySegment& ray : rays) ray.from += by, ray.to += by;
     scene.mesh().show(torus, MeshStyle::ghost);
     scene.cloud().show(cloud);

@@ -11,6 +11,9 @@
 /// Things to draw. Made here, so that a picture changes only if the drawing does.
 namespace nextview::samples {
 
+/// Where the camera stands in most pictures: it sees the torus obliquely, a little from above.
+inline const Vector3 usual_viewer(0.5, -0.8, 0.4);
+
 /// A torus that stands on its edge, 0.5 m wide.
 TriangleMesh torus();
 

@@ -11,7 +11,7 @@
 namespace nextview {
 namespace {
 
-Configuration small_scan() {
+Configuration plate_scan() {
   Configuration c;
   c.object.file = "slotted_plate";
   c.sensor.width = 160;
@@ -38,7 +38,7 @@ ReportScan scan_of(const Configuration& configuration) {
 
 std::vector<ReportScan> scans() {
   std::vector<ReportScan> scans;
-  ReportScan& scan = scans.emplace_back(scan_of(small_scan()));
+  ReportScan& scan = scans.emplace_back(scan_of(plate_scan()));
   scan.maps = [&session = *scan.session] {
     std::vector<Pose> views;
     for (const StepRecord& record : session.records()) views.push_back(record.T_world_camera);
@@ -62,7 +62,7 @@ TEST(Figures, OfScans) {
 }
 
 TEST(Figures, OfTheSensorAreOfTheScansOwn) {
-  Configuration c = small_scan();
+  Configuration c = plate_scan();
   c.sensor.range_noise = 0.005;
   c.termination.views = 1;
   std::vector<ReportScan> scans;

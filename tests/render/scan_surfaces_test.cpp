@@ -20,7 +20,7 @@ std::vector<Pose> views_around(int count) {
   return candidate_views(layout, Vector3::Zero());
 }
 
-Configuration small_scan(const std::string& object, int width, double noise) {
+Configuration part_scan(const std::string& object, int width, double noise) {
   Configuration c;
   c.object.file = std::string(NEXTVIEW_SOURCE_DIR "/assets/objects/") + object + ".ply";
   c.sensor.width = width;
@@ -38,7 +38,7 @@ struct HousingSurfaces {
 /// The slotted housing's, of its Gibbs map and of its cloud.
 const HousingSurfaces& housing() {
   static const HousingSurfaces made = [] {
-    const RefinementJob job = refinement_job(small_scan("slotted_housing", 320, 0.001), views_around(16));
+    const RefinementJob job = refinement_job(part_scan("slotted_housing", 320, 0.001), views_around(16));
     return HousingSurfaces{job.scans.size(), scan_surfaces(job, refine(job))};
   }();
   return made;
@@ -78,7 +78,7 @@ TEST(Figures, Calibration) {
   std::vector<CalibrationExample> examples;
   for (const auto& [object, held_out] : {std::pair{"slotted_plate", false}, {"slotted_housing", true}})
     for (const int views : {4, 12}) {
-      CalibrationExample example{refinement_job(small_scan(object, 160, 0.002), views_around(views)), held_out};
+      CalibrationExample example{refinement_job(part_scan(object, 160, 0.002), views_around(views)), held_out};
       examples.push_back(std::move(example));
     }
   expect_screenshot("calibration", draw_calibration_figure(calibrate_map(std::move(examples), {})));

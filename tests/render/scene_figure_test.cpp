@@ -9,7 +9,7 @@
 namespace nextview {
 namespace {
 
-constexpr int edge = 200;  // of the pictures [px]
+constexpr int picture_edge = 200;  // [px]
 
 TriangleMesh box(const Vector3& centre, const Vector3& half) {
   TriangleMesh mesh;
@@ -32,7 +32,7 @@ struct Turntable {
     picture.camera = PinholeCamera::from_field_of_view(64, 48, 1.0);
     SceneLayers layers;
     layers.cloud = layers.map = layers.views = layers.rays = layers.region = layers.annotated = false;
-    figure = std::make_unique<SceneFigure>(target, picture, layers, PictureSize{edge, edge}, 1.0);
+    figure = std::make_unique<SceneFigure>(target, picture, layers, PictureSize{picture_edge, picture_edge}, 1.0);
   }
   Image turned(const ViewDirection& start, int frame, int count) {
     return figure->draw_turned(start, frame, count, true);
@@ -65,10 +65,10 @@ TEST(SceneFigure, NothingIsCutOffAsItTurns) {
         const auto box = seen(table.turned({-50, elevation}, frame, 8));
         ASSERT_FALSE(box.isEmpty());
         EXPECT_GT(box.min().minCoeff(), 3) << "frame " << frame << " from " << elevation;
-        EXPECT_LT(box.max().maxCoeff(), edge - 4) << "frame " << frame << " from " << elevation;
+        EXPECT_LT(box.max().maxCoeff(), picture_edge - 4) << "frame " << frame << " from " << elevation;
         largest = std::max(largest, box.sizes().maxCoeff());
       }
-      EXPECT_GT(largest, 0.4 * edge) << "it could be larger";
+      EXPECT_GT(largest, 0.4 * picture_edge) << "it could be larger";
     }
   }
 }
@@ -100,11 +100,11 @@ TEST(SceneFigure, ATurnGoesAroundTheRegionsMiddleCounterClockwise) {
   const auto middle = [&](int frame) {
     return (at[std::size_t(frame)].min().x() + at[std::size_t(frame)].max().x()) / 2;
   };
-  EXPECT_GT(middle(0), edge / 2 + 30);
-  EXPECT_NEAR(middle(1), edge / 2, 3);
-  EXPECT_LT(middle(2), edge / 2 - 30);
-  EXPECT_NEAR(middle(3), edge / 2, 3);
-  EXPECT_NEAR(middle(0) - edge / 2, edge / 2 - middle(2), 3) << "as far on either side";
+  EXPECT_GT(middle(0), picture_edge / 2 + 30);
+  EXPECT_NEAR(middle(1), picture_edge / 2, 3);
+  EXPECT_LT(middle(2), picture_edge / 2 - 30);
+  EXPECT_NEAR(middle(3), picture_edge / 2, 3);
+  EXPECT_NEAR(middle(0) - picture_edge / 2, picture_edge / 2 - middle(2), 3) << "as far on either side";
   EXPECT_GT(at[1].sizes().y(), at[3].sizes().y()) << "the camera comes to where the object is, which is nearer then";
   const PictureDifference round = compare(table.turned({-90, 0}, 0, 4), table.turned({-90, 0}, 4, 4));
   EXPECT_TRUE(round.within({})) << round.summary();
@@ -115,7 +115,7 @@ TEST(SceneFigure, WhatIsNotTransparentHasAGround) {
   const Image clear = table.figure->draw({}, true), solid = table.figure->draw({}, false);
   EXPECT_EQ(clear.rgba[3], 0);
   for (std::size_t i = 3; i < solid.rgba.size(); i += 4) ASSERT_EQ(solid.rgba[i], 255);
-  EXPECT_EQ(clear.rgba[(edge / 2 * edge + edge / 2) * 4 + 3], 255) << "the object";
+  EXPECT_EQ(clear.rgba[(picture_edge / 2 * picture_edge + picture_edge / 2) * 4 + 3], 255) << "the object";
 }
 
 TEST(SceneFigure, PointsThatAreAskedForFillIt) {

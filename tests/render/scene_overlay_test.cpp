@@ -14,11 +14,11 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 500, height = 320;  // [px of the design]
+constexpr int design_width = 500, design_height = 320;  // [px of the design]
 
 /// An overlay over plain white, without axes and scale bar.
 Image drawn(double scale, const std::function<void(SceneOverlay&)>& fill,
-            const Eigen::Vector2i& size = {width, height}) {
+            const Eigen::Vector2i& size = {design_width, design_height}) {
   OffscreenTarget target(int(size.x() * scale), int(size.y() * scale));
   vtkNew<SceneRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
@@ -69,9 +69,9 @@ TEST(SceneOverlay, LegendsAreInTheSamePlaceOnAnyDisplay) {
   };
   const auto usual = boxes(1.0);
   ASSERT_FALSE(usual.first.isEmpty());
-  EXPECT_GT(usual.first.min().x(), width / 3.0) << "at the right";
+  EXPECT_GT(usual.first.min().x(), design_width / 3.0) << "at the right";
   EXPECT_NEAR(usual.second.min().y(), 20, 8) << "and above";
-  EXPECT_GT(usual.second.max().x(), width / 2.0);
+  EXPECT_GT(usual.second.max().x(), design_width / 2.0);
   for (const double scale : {1.5, 2.0, 3.0}) {
     const auto fine = boxes(scale);
     for (const auto& [a, b] : {std::pair(usual.first, fine.first), std::pair(usual.second, fine.second)}) {
@@ -123,12 +123,12 @@ TEST(SceneOverlay, InANarrowPictureLabelsLieAboveTheScaleBar) {
               overlay.axes = overlay.scale_bar = true;
               overlay.labels.push_back({{Vector3(0.2, -0.25, 0)}, "a label of some length", {1, 0, 0}, true});
             },
-            {narrow, height});
+            {narrow, design_height});
   const Box label = box_of(image, 1.0, is_red);
   ASSERT_FALSE(label.isEmpty());
   EXPECT_GT(label.sizes().x(), 100);
-  EXPECT_LT(label.max().y(), height - axes_and_bar);
-  EXPECT_GT(label.max().y(), height - axes_and_bar - 30) << "and no farther";
+  EXPECT_LT(label.max().y(), design_height - axes_and_bar);
+  EXPECT_GT(label.max().y(), design_height - axes_and_bar - 30) << "and no farther";
 }
 
 /// Where axes and scale bar are in its way it goes above them, not to the legend at the other side.
@@ -169,7 +169,7 @@ TEST(SceneOverlay, TheScaleBarIsAsLongAsItSays) {
     const Image image = drawn(scale, [](SceneOverlay& overlay) { overlay.scale_bar = true; });
     const Box bar = box_of(image, scale, is_dark);
     ASSERT_FALSE(bar.isEmpty());
-    const double pixels_per_metre = height / (2 * std::tan(angle / 2 * M_PI / 180));
+    const double pixels_per_metre = design_height / (2 * std::tan(angle / 2 * M_PI / 180));
     // 1, 2 or 5 times a power of ten that is at most 150 px: 0.2 m of these. Its ends are 2 px wide.
     EXPECT_NEAR(bar.sizes().x(), 0.2 * pixels_per_metre, 3) << scale;
   }
@@ -219,7 +219,7 @@ bool number_is_seen(double behind, DrawingQuality quality, bool orthographic, Me
   square.vertices = {{-0.5, 0, -0.5}, {0.5, 0, -0.5}, {0.5, 0, 0.5}, {-0.5, 0, 0.5}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
   const auto drawn_with = [&](bool number) {
-    OffscreenTarget target(width, height);
+    OffscreenTarget target(design_width, design_height);
     Scene scene;
     scene.attach(target);
     scene.mesh().show(square, style);

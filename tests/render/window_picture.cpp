@@ -7,10 +7,9 @@
 namespace nextview {
 
 Image draw_everything(RenderTarget& target) {
-  const Vector3 viewer(0.5, -0.8, 0.4);
   const auto candidates = samples::candidates();
-  const auto scores = samples::scores(candidates, viewer);
-  const auto map = samples::map(viewer);
+  const auto scores = samples::scores(candidates, samples::usual_viewer);
+  const auto map = samples::map(samples::usual_viewer);
   ViewsPicture views;
   views.camera = PinholeCamera::from_field_of_view(640, 480, 1.0123);
   views.candidates = candidates;
@@ -21,7 +20,7 @@ Image draw_everything(RenderTarget& target) {
   scene.attach(target);
   scene.set_caption("Everything at once");
   scene.mesh().show(samples::torus(), MeshStyle::ghost);
-  scene.cloud().show(samples::cloud(viewer));
+  scene.cloud().show(samples::cloud(samples::usual_viewer));
   scene.octree().show(map.grid, map.voxels);
   scene.views().show(views);
   scene.rays().show(samples::rays(candidates[17]), {});
