@@ -17,8 +17,8 @@ namespace nextview {
 namespace {
 
 // The window of 1280 x 800 at three eighths of its size: a software renderer takes its time for each pixel.
-constexpr int width = 480, height = 300;
-constexpr double scale = 0.375;
+constexpr int small_width = 480, small_height = 300;
+constexpr double small_scale = 0.375;
 
 /// Likewise.
 Configuration coarse_scan() {
@@ -76,8 +76,8 @@ const Names scene_names = {"standard-view",  "turn",         "toggle-orthographi
                            "toggle-legends", "measure",      "measure-point"};
 const Names window_names = {"dark",        "panel-sizes", "text-size", "hide-panels",
                             "full-screen", "file-dialog", "guide",     "manual"};
-const Names demo_names = {"caption", "title",  "highlight", "orbit",      "fly-to",
-                          "wait",    "assert", "record",    "record-stop"};
+const Names demo_script_names = {"caption", "title",  "highlight", "orbit",      "fly-to",
+                                 "wait",    "assert", "record",    "record-stop"};
 const Names scanner_names = {"connect", "answer", "reconnect", "disconnect"};
 /// They have tests of their own; the first makes a large scan.
 const Names walked_elsewhere = {"reset-settings", "play-demo", "dismiss"};
@@ -126,7 +126,7 @@ class Commands : public InTemporaryFolder {
 };
 
 TEST_F(Commands, EachIsDoneByAScript) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, "frame\nlook-from 30 20\nzoom 2\nstep\nstep\n");
   walk(user, fmt::format("select-view {}", another(user.session())));
   walk_each(user, {"take-view",
@@ -199,7 +199,7 @@ TEST_F(Commands, EachIsDoneByAScript) {
 }
 
 TEST_F(Commands, EachOfTheTimelineIsDoneByAScript) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, "step\nstep\n");
   walk(user, "previous-view\nnext-view\ngo-to-view 1\nbranch \"what if\"\nrename-branch \"what if\" closer\nstep\n");
   walk(user,
@@ -210,7 +210,7 @@ TEST_F(Commands, EachOfTheTimelineIsDoneByAScript) {
 }
 
 TEST_F(Commands, EachThatExportsIsDoneByAScript) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, "step\nstep\n");
   for (const auto& [command, name] :
        {std::pair("export-cloud", "a cloud.ply"), std::pair("export-map", "a map.bt"),
@@ -225,7 +225,7 @@ TEST_F(Commands, EachThatExportsIsDoneByAScript) {
 }
 
 TEST_F(Commands, EachOfTheSceneIsDoneByAScript) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, "step\nstep\n");
   walk_each(user, {"toggle-region", "edit-region", "edit-region", "toggle-region"});
   walk_choices(user, {"section-axis", "second-view", "surface-of", "surface-colour"});
@@ -240,7 +240,7 @@ TEST_F(Commands, EachOfTheSceneIsDoneByAScript) {
 }
 
 TEST_F(Commands, EachOfWindowAndDemosIsDoneByAScript) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, "step\nstep\n");
   walk(user, "dark\ndark\npanel-sizes 300 400 200\n");
   walk(user,
@@ -252,11 +252,11 @@ TEST_F(Commands, EachOfWindowAndDemosIsDoneByAScript) {
        "wait 0.1\nwait until done\nassert views >= 1\ncaption \"\"\n");
   walk(user, "record " + path("a recording.nextview") + "\nmanual\nmanual planning\nmanual\nrecord-stop\n");
   expect_walked(user, window_names);
-  expect_walked(user, demo_names);
+  expect_walked(user, demo_script_names);
 }
 
 TEST_F(Commands, EachOfAScannerIsDoneByAScript) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, "set map.region \"-1 -1 -0.5 1 1 1.5\"\nconnect \"'" NEXTVIEW_FAKE_DRIVER "' '" +
                  file("no_fault").string() + "'\"\nstep\nanswer Move\nreconnect\ndisconnect\n");
   walk(user, "open box\nopen " + path("tiny scan.toml") + "\n");  // after a scanner, a simulated camera again
@@ -266,15 +266,15 @@ TEST_F(Commands, EachOfAScannerIsDoneByAScript) {
 /// What a case names and does not walk fails there; what no case names fails here.
 TEST_F(Commands, EachIsNamedByACase) {
   std::set<std::string> named;
-  for (const Names* names : {&scan_names, &timeline_names, &export_names, &scene_names, &window_names, &demo_names,
-                             &scanner_names, &walked_elsewhere})
+  for (const Names* names : {&scan_names, &timeline_names, &export_names, &scene_names, &window_names,
+                             &demo_script_names, &scanner_names, &walked_elsewhere})
     for (const std::string& name : *names) EXPECT_TRUE(named.insert(name).second) << name << " is named twice";
   for (const Command& command : commands()) EXPECT_TRUE(named.contains(command.name)) << command.name;
 }
 
 /// This part of EachIsDoneByAScript once depended on how fast the machine was.
 TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   walk(user, endless_refinement);
   const auto log = *user.worker().log().entries();
   expect_words_for_people(log);
@@ -282,7 +282,7 @@ TEST_F(Commands, ARefinementThatIsCancelledSaysSo) {
 }
 
 TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   user.run_quickly("reset-settings\n");
   Configuration expected;
   expected.object = coarse_scan().object;
@@ -293,14 +293,14 @@ TEST_F(Commands, AllSettingsGoBackAndTheObjectStays) {
 
 TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
   const std::string script = '"' + file("script.txt").string() + '"';
-  User first(coarse_scan(), width, height, scale);
+  User first(coarse_scan(), small_width, small_height, small_scale);
   first.run_quickly(
       "step\nstep\nselect-view 3\nzoom 1\nzoom 1\nslice-axis x\nslice-at 0.1 0.2\nslice-at 0.05\n"
       "set planner.combined_weights \"\"\nstep\ncustom-view 0.6 -0.6 0.5 0 0 0\ntake-custom-view\nstep\nundo\nstep\n"
       "inspect-ray 3\ninspect-voxel 0 0 0\nsave-script " +
       script + "\n");
   const std::string saved = read_file(file("script.txt"));
-  User second(coarse_scan(), width, height, scale);
+  User second(coarse_scan(), small_width, small_height, small_scale);
   second.run_quickly(saved);
   expect_valid(second.session());
   ASSERT_EQ(second.session().records.size(), first.session().records.size());
@@ -317,7 +317,7 @@ TEST_F(Commands, AScriptThatWasSavedDoesTheSame) {
 TEST_F(Commands, AtRandomLeaveAValidSession) {
   const char* const wanted = std::getenv("NEXTVIEW_RANDOM_COMMANDS");
   const std::size_t count = wanted ? std::stoul(wanted) : 200;
-  User user(coarse_scan(), width, height, scale);
+  User user(coarse_scan(), small_width, small_height, small_scale);
   // Other commands: --gtest_random_seed.
   RandomCalls random(20240229 + std::uint64_t(GTEST_FLAG_GET(random_seed)), folder_, file("tiny scan.toml"));
   std::size_t done = 0, refused = 0, views = 0;

@@ -14,9 +14,6 @@ namespace nextview {
 namespace {
 
 constexpr double frame = 1.0 / 60;  // [s]
-/// The window of 1280 x 800 at half its size: each pixel is drawn and read twice.
-constexpr int width = 640, height = 400;
-constexpr double scale = 0.5;
 
 /// What the last frame shows, all of it drawn at once: the scene's picture, then every panel. In a framebuffer of its
 /// own, whose rows are in the other order than the back buffer's: a renderer may round otherwise there.
@@ -62,7 +59,7 @@ class Comparison : public ::testing::Test {
   }
   std::size_t pixels() { return std::size_t(user_.target().width()) * std::size_t(user_.target().height()); }
 
-  User user_{small_scan(), width, height, scale};
+  User user_{small_scan(), half_width, half_height, half_scale};
   const Layout layout_ = user_.window().layout();
   int drawn_partly_ = 0;
 };
@@ -85,7 +82,7 @@ TEST_F(Comparison, StepsAndPanels) {
 TEST_F(Comparison, PointerOverEverything) {
   user_.type(key('S'));
   user_.wait();
-  for (int i = 0; i <= 40; ++i) hover((width - 1) * i / 40.0, 6 + 390 * (i * 7 % 41) / 40.0);
+  for (int i = 0; i <= 40; ++i) hover((half_width - 1) * i / 40.0, 6 + 390 * (i * 7 % 41) / 40.0);
   for (const Rectangle& r : {layout_.left, layout_.right, layout_.bottom, layout_.scene}) {
     hover(r.x + r.width / 2, r.y + r.height / 2);
     for (const double steps : {-1, -1, 1, 1}) {
@@ -94,13 +91,13 @@ TEST_F(Comparison, PointerOverEverything) {
     }
     look("after scrolling", 8);
   }
-  hover(50 * scale, layout_.control_bar.y + 25 * scale);
+  hover(50 * half_scale, layout_.control_bar.y + 25 * half_scale);
   look("a tooltip", 36);  // it comes after 27
   for (double x = 11; x < 300; x += 40) {
-    user_.click(x * scale, 12 * scale);
+    user_.click(x * half_scale, 12 * half_scale);
     look("a menu", 5);
-    hover((x + 20) * scale, 60 * scale);
-    hover((x + 20) * scale, 91 * scale);
+    hover((x + 20) * half_scale, 60 * half_scale);
+    hover((x + 20) * half_scale, 91 * half_scale);
     user_.type(Key::escape);
     look("a menu is closed", 3);
   }
@@ -119,7 +116,7 @@ TEST_F(Comparison, TurningAndResizing) {
   user_.release();
   look("the camera comes to rest", 20);
   EXPECT_GT(drawn_partly_, 10);
-  for (const auto& [w, h] : {std::pair{600, 360}, {620, 380}, {width, height}}) {
+  for (const auto& [w, h] : {std::pair{600, 360}, {620, 380}, {half_width, half_height}}) {
     user_.target().window().SetSize(w, h);
     look("another size", 4);
   }
@@ -130,8 +127,8 @@ TEST_F(Comparison, DrawsOnlyWhatIsNew) {
   user_.wait();
   EXPECT_FALSE(user_.window().draw(frame)) << "nothing happened";
   const Rectangle& panel = layout_.right;
-  hover(panel.x + 100 * scale, panel.y + 190 * scale);
-  user_.move(panel.x + 100 * scale, panel.y + (190 + 42) * scale);
+  hover(panel.x + 100 * half_scale, panel.y + 190 * half_scale);
+  user_.move(panel.x + 100 * half_scale, panel.y + (190 + 42) * half_scale);
   EXPECT_TRUE(user_.window().draw(frame));
   EXPECT_LT(user_.window().pixels_drawn(), pixels() / 2) << "another row is lit";
   user_.wait();

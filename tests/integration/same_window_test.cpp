@@ -12,8 +12,6 @@
 namespace nextview {
 namespace {
 
-constexpr int width = 640, height = 400;
-constexpr double scale = 0.5;
 /// Two views, and all that can be switched on.
 constexpr const char* lines = "step\nstep\ntoggle-region\ntoggle-candidates\nvoxel-colour probability\nselect-view 3\n";
 
@@ -29,7 +27,7 @@ Image look(User& user, bool scene_alone) {
 class SameWindow : public InTemporaryFolder {
  protected:
   static Image after(const std::string& script, bool scene_alone = false) {
-    User user(tiny_scan(), width, height, scale);
+    User user(tiny_scan(), half_width, half_height, half_scale);
     user.run_quickly(script);
     return look(user, scene_alone);
   }
@@ -75,7 +73,7 @@ TEST_F(SameWindow, BackAndForthAndStraight) {
 TEST_F(SameWindow, AfterTheGraphicsCardWasReset) {
   for (const char* shown : {"panel view\nobject-style solid\n", "toggle-object\ntoggle-surface\nsection-axis x\ndark\n",
                             "panel candidates\nsecond-view octree\ntoggle-missed\n", "panel curves\ntoggle-octree\n"}) {
-    User user(tiny_scan(), width, height, scale);
+    User user(tiny_scan(), half_width, half_height, half_scale);
     user.run_quickly(fmt::format("{}{}wait until done\n", lines, shown));
     const Image before = look(user, false);
     user.window().renew_target();
@@ -84,7 +82,7 @@ TEST_F(SameWindow, AfterTheGraphicsCardWasReset) {
     EXPECT_EQ(user.target().gl_error(), 0u) << shown;
     user.run_quickly("turn 30 0\nstep\nturn -30 0\nundo\n");  // with what is made for motion alone
     const Image later = look(user, true);
-    User other(tiny_scan(), width, height, scale);
+    User other(tiny_scan(), half_width, half_height, half_scale);
     other.run_quickly(fmt::format("{}{}wait until done\nturn 30 0\nstep\nturn -30 0\nundo\n", lines, shown));
     const Image never_lost = look(other, true);
     EXPECT_TRUE(later == never_lost) << shown << compare(later, never_lost).summary();

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/integration/small_scan.hpp"
 #include "tests/integration/user.hpp"
-#include "tests/unit/workbench/small_scan.hpp"
 #include "ui/workbench/inspector.hpp"
 
 namespace nextview {
@@ -15,7 +15,11 @@ using testing::ElementsAreArray;
 
 /// By gain alone: all utilities but those of taken candidates, which are 0, are over 0.
 Configuration by_gain_alone() {
-  Configuration c = small_scan();
+  Configuration c = tiny_scan();
+  c.planner.ray_columns = 8;
+  c.planner.ray_rows = 6;
+  c.termination.views = 4;
+  c.termination.surface_left = 0.0;
   c.planner.gain = "occlusion-aware";
   c.planner.weights = {1, 0};
   return c;
@@ -43,7 +47,7 @@ class SceneRanges : public testing::Test {
     EXPECT_EQ(l->range->high, range.second);
     EXPECT_EQ(l->locked, locked);
   }
-  User user_{by_gain_alone(), 640, 400, 0.5};
+  User user_{by_gain_alone(), half_width, half_height, half_scale};
 };
 
 TEST_F(SceneRanges, UtilitiesAreThoseOfTheCandidatesThatAreLeft) {

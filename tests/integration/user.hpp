@@ -9,6 +9,11 @@
 
 namespace nextview {
 
+/// The window of 1280 x 800 at half its size: a software renderer takes its time for each pixel. For what counts no
+/// pixels of a panel.
+inline constexpr int half_width = 640, half_height = 400;
+inline constexpr double half_scale = 0.5;
+
 /// Somebody in front of the window, who needs no display: input goes in, pictures come out. Time is what the frames
 /// say.
 class User {

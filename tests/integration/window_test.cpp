@@ -9,11 +9,6 @@
 namespace nextview {
 namespace {
 
-/// Half the window each way, for what counts no pixels of a panel and clicks on nothing: a software renderer takes its
-/// time for each pixel.
-constexpr int half_width = 640, half_height = 400;
-constexpr double half_scale = 0.5;
-
 TEST(Window, LoadsTheObjectAndStepsByKeys) {
   User user(small_scan());
   user.wait();
