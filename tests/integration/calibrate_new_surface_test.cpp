@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 const std::string fit = "calibrate --fit new-surface";
-const std::string coarse = " --sensor.width 80 --sensor.height 60 --map.resolution 0.02";
-const std::string few = fit + " --parts 2 --views 3" + coarse + " --out ";
+const std::string coarse_parts = " --sensor.width 80 --sensor.height 60 --map.resolution 0.02";
+const std::string few_parts = fit + " --parts 2 --views 3" + coarse_parts + " --out ";
 
 class CalibrateNewSurface : public ::testing::Test {
  protected:
@@ -43,8 +43,8 @@ class CalibrateNewSurface : public ::testing::Test {
 };
 
 TEST_F(CalibrateNewSurface, WritesTheSameBytesOnAnyNumberOfThreadsAndScanTakesThem) {
-  const std::string printed = run("--threads 1 " + few + in("one"));
-  run("--threads 2 " + few + in("two"));
+  const std::string printed = run("--threads 1 " + few_parts + in("one"));
+  run("--threads 2 " + few_parts + in("two"));
   EXPECT_THAT(file_names(in("one")),
               ElementsAre("calibration.json", "config.toml", "manifest.json", "new_surface.toml"));
   for (const std::string& name : file_names(in("one")))
@@ -63,8 +63,8 @@ TEST_F(CalibrateNewSurface, WritesTheSameBytesOnAnyNumberOfThreadsAndScanTakesTh
 
   const std::string learned = read("one", "new_surface.toml");
   EXPECT_THAT(learned, HasSubstr("2 parts made up for it, 3 views of each, seed 1"));
-  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces --evaluation.surface_samples 1000" + coarse +
-      " --config " + in("one/new_surface.toml") + " --out " + in("scan"));
+  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces --evaluation.surface_samples 1000" +
+      coarse_parts + " --config " + in("one/new_surface.toml") + " --out " + in("scan"));
   for (const char* key :
        {"unmeasured", "unmeasured_from_free", "free", "occupied_occupied", "slant", "slant_edge_on"}) {
     EXPECT_NE(toml_value(learned, key), "") << key;
@@ -76,7 +76,7 @@ TEST_F(CalibrateNewSurface, WritesTheSameBytesOnAnyNumberOfThreadsAndScanTakesTh
 }
 
 TEST_F(CalibrateNewSurface, LearnsFromMeshesAndForASensorAlone) {
-  run(fit + " box sphere --views 2 --sensor.preset narrow" + coarse + " --seed 3 --out " + in("out"));
+  run(fit + " box sphere --views 2 --sensor.preset narrow" + coarse_parts + " --seed 3 --out " + in("out"));
   const Json said = numbers("out");
   EXPECT_EQ(said.at("objects"), (std::vector<std::string>{"box", "sphere"}));
   EXPECT_EQ(said.at("seed"), 3);
@@ -85,7 +85,7 @@ TEST_F(CalibrateNewSurface, LearnsFromMeshesAndForASensorAlone) {
 }
 
 TEST_F(CalibrateNewSurface, TheProgramsOwnIsAConfigurationOfThisName) {
-  run("scan box --views 1 --views.count 4 --no-pictures --no-surfaces --evaluation.surface_samples 100" + coarse +
+  run("scan box --views 1 --views.count 4 --no-pictures --no-surfaces --evaluation.surface_samples 100" + coarse_parts +
       " --new_surface.free 3 --config new_surface --new_surface.occupied 2 --out " + in("scan"));
   EXPECT_EQ(toml_value(read("scan", "config.toml"), "occupied"), "2") << "options override";
 }
@@ -105,7 +105,7 @@ TEST_F(CalibrateNewSurface, MistakesAreOneLineAndExitCode2) {
   expect_error(fit + " " + folder_.path().string(), "finished scans");
   expect_error(fit + " scene.txt", "finished scans");
   expect_error("calibrate --fit surface", "--fit");
-  expect_error(fit + " --map.region_edge 0.3" + coarse + " box", "map.region_edge");
+  expect_error(fit + " --map.region_edge 0.3" + coarse_parts + " box", "map.region_edge");
   expect_error(fit + " --map.region_edge 40", "map.region_edge");
   expect_error(fit + " --planner.gain random", "--planner.gain");
 }

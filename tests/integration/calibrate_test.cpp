@@ -16,9 +16,9 @@ using ::testing::Not;
 namespace fs = std::filesystem;
 
 /// Gibbs maps that take a tenth of a second: few pixels, coarse voxels.
-const std::string coarse =
+const std::string coarse_calibration =
     " --sensor.width 60 --sensor.height 45 --map.resolution 0.04 --evaluation.surface_samples 1000 ";
-const std::string small = coarse + "--views 3 --no-pictures --out ";
+const std::string small_calibration = coarse_calibration + "--views 3 --no-pictures --out ";
 const std::string sphere_and_box = "calibrate sphere --held-out box";
 
 class Calibrate : public ::testing::Test {
@@ -44,7 +44,7 @@ class Calibrate : public ::testing::Test {
 const std::vector<std::string> fitted_keys = {"hit", "miss", "hit_decay", "miss_decay", "clamp_min", "clamp_max"};
 
 TEST_F(Calibrate, WritesTheModelTheNumbersAndThePictureAndNothingElse) {
-  run(sphere_and_box + coarse + "--views 2,4 --out " + in("out"));
+  run(sphere_and_box + coarse_calibration + "--views 2,4 --out " + in("out"));
   EXPECT_THAT(file_names(in("out")),
               ::testing::ElementsAre("calibration.json", "calibration.png", "config.toml", "descent.csv",
                                      "manifest.json", "scores.csv", "sensor_model.toml"));
@@ -73,7 +73,7 @@ TEST_F(Calibrate, WritesTheModelTheNumbersAndThePictureAndNothingElse) {
 }
 
 TEST_F(Calibrate, TheSameBytesOnAnyNumberOfThreads) {
-  const std::string rest = coarse + "--views 4 --range-dependent --no-pictures --out ";
+  const std::string rest = coarse_calibration + "--views 4 --range-dependent --no-pictures --out ";
   run("--threads 1 " + sphere_and_box + rest + in("one"));
   run("--threads 2 " + sphere_and_box + rest + in("two"));
   for (const std::string& name : file_names(in("one"))) {
@@ -83,9 +83,9 @@ TEST_F(Calibrate, TheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST_F(Calibrate, ScanTakesTheModelAloneAndWithOtherFiles) {
-  run(sphere_and_box + small + in("out"));
+  run(sphere_and_box + small_calibration + in("out"));
   const std::string model = read("out", "sensor_model.toml");
-  const std::string scan = "scan box --views 1 --views.count 4 --no-pictures --no-surfaces" + coarse;
+  const std::string scan = "scan box --views 1 --views.count 4 --no-pictures --no-surfaces" + coarse_calibration;
   run(scan + "--config " + in("out/sensor_model.toml") + " --out " + in("alone"));
   write_file(in("other.toml"), "seed = 9\n[map]\nhit = 0.6\noccupied_above = 0.9\n");
   const std::string other = " --config " + in("other.toml"), fitted = " --config " + in("out/sensor_model.toml");
@@ -106,13 +106,13 @@ TEST_F(Calibrate, ScanTakesTheModelAloneAndWithOtherFiles) {
 
 TEST_F(Calibrate, DecaysAreFittedAndClampsKeptOnlyIfAsked) {
   const std::string sphere = "calibrate sphere --held-out sphere", start = " --map.clamp_min 0.15 --map.clamp_max 0.9";
-  run(sphere + " --range-dependent" + start + small + in("ranges"));
+  run(sphere + " --range-dependent" + start + small_calibration + in("ranges"));
   const std::string ranges = read("ranges", "sensor_model.toml");
   EXPECT_NE(std::stod(toml_value(ranges, "hit_decay")), 0.0);
   EXPECT_NE(std::stod(toml_value(ranges, "miss_decay")), 0.0);
   EXPECT_NE(toml_value(ranges, "clamp_min"), "0.15");
   EXPECT_NE(toml_value(ranges, "clamp_max"), "0.9");
-  run(sphere + " --keep-clamps --map.miss_decay 0.25" + start + small + in("kept"));
+  run(sphere + " --keep-clamps --map.miss_decay 0.25" + start + small_calibration + in("kept"));
   const std::string kept = read("kept", "sensor_model.toml");
   EXPECT_EQ(toml_value(kept, "clamp_min"), "0.15");
   EXPECT_EQ(toml_value(kept, "clamp_max"), "0.9");
@@ -121,7 +121,7 @@ TEST_F(Calibrate, DecaysAreFittedAndClampsKeptOnlyIfAsked) {
 }
 
 TEST_F(Calibrate, TakesFinishedScansToo) {
-  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces" + coarse + "--out " + in("scan"));
+  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces" + coarse_calibration + "--out " + in("scan"));
   write_file(in("scene.txt"), wall_scene(0.04));
   // A trailing slash, as a shell completes it; the scan that is fitted to is not held out as well.
   run("calibrate " + in("scan") + "/ " + in("scene.txt") + " --held-out " + in("scan") + " --no-pictures --out " +
@@ -137,7 +137,7 @@ TEST_F(Calibrate, TakesFinishedScansToo) {
 }
 
 TEST_F(Calibrate, AScanAsInputHasNothingHeldOutUnlessAskedForAndIsNotOverwritten) {
-  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces" + coarse + "--out " + in("scan"));
+  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces" + coarse_calibration + "--out " + in("scan"));
   run("calibrate " + in("scan") + " --no-pictures --out " + in("first"));
   EXPECT_EQ(read_table(read("first", "scores.csv")).size(), 3u);
   const std::string before = read("scan", "scores.csv");
@@ -147,7 +147,7 @@ TEST_F(Calibrate, AScanAsInputHasNothingHeldOutUnlessAskedForAndIsNotOverwritten
 }
 
 TEST_F(Calibrate, OptionsDoNotSwallowInputs) {
-  run("calibrate --held-out box --views 3 sphere --no-pictures" + coarse + "--out " + in("out"));
+  run("calibrate --held-out box --views 3 sphere --no-pictures" + coarse_calibration + "--out " + in("out"));
   const Table scores = read_table(read("out", "scores.csv"));
   ASSERT_EQ(scores.size(), 2u * 3u);
   EXPECT_EQ(scores[0].at("object") + scores[0].at("held_out"), "sphere0");
@@ -156,8 +156,8 @@ TEST_F(Calibrate, OptionsDoNotSwallowInputs) {
 
 // sensor_model.toml says so, and the noise decides what is fitted.
 TEST_F(Calibrate, TheSensorIsThatOfTheConfigurationBesideTheModel) {
-  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces --sensor.range_noise 0.006" + coarse + "--out " +
-      in("scan"));
+  run("scan box --views 2 --views.count 6 --no-pictures --no-surfaces --sensor.range_noise 0.006" + coarse_calibration +
+      "--out " + in("scan"));
   run("calibrate " + in("scan") + " --held-out " + in("scan") + " --no-pictures --out " + in("out"));
   EXPECT_THAT(read("out", "sensor_model.toml"), HasSubstr("the sensor of the config.toml beside it"));
   EXPECT_EQ(toml_value(read("out", "config.toml"), "range_noise"), "0.006");
@@ -165,17 +165,17 @@ TEST_F(Calibrate, TheSensorIsThatOfTheConfigurationBesideTheModel) {
 }
 
 TEST_F(Calibrate, BadInputIsOneLineAndExitCode2) {
-  expect_error("calibrate no-such-object" + small + in("out"), "no-such-object");
-  expect_error("calibrate sphere --held-out no-such-object" + small + in("out"), "no-such-object");
-  expect_error(sphere_and_box + coarse + "--views 0 --out " + in("out"), "--views");
-  expect_error(sphere_and_box + coarse + "--views 2,many --out " + in("out"), "--views");
-  expect_error(sphere_and_box + small + in("out") + " --band -1", "--band");
-  expect_error(sphere_and_box + small + in("out") + " --map.hit 0.3", "hit");
-  expect_error(sphere_and_box + small + in("out") + " --planner.gain gibbs", "--planner.gain");
+  expect_error("calibrate no-such-object" + small_calibration + in("out"), "no-such-object");
+  expect_error("calibrate sphere --held-out no-such-object" + small_calibration + in("out"), "no-such-object");
+  expect_error(sphere_and_box + coarse_calibration + "--views 0 --out " + in("out"), "--views");
+  expect_error(sphere_and_box + coarse_calibration + "--views 2,many --out " + in("out"), "--views");
+  expect_error(sphere_and_box + small_calibration + in("out") + " --band -1", "--band");
+  expect_error(sphere_and_box + small_calibration + in("out") + " --map.hit 0.3", "hit");
+  expect_error(sphere_and_box + small_calibration + in("out") + " --planner.gain gibbs", "--planner.gain");
   write_file(in("file"), "not a folder");
-  expect_error(sphere_and_box + small + in("file"), in("file"));
+  expect_error(sphere_and_box + small_calibration + in("file"), in("file"));
   EXPECT_EQ(read_file(in("file")), "not a folder");
-  expect_error(sphere_and_box + small + "/proc/nextview", "/proc/nextview");
+  expect_error(sphere_and_box + small_calibration + "/proc/nextview", "/proc/nextview");
 }
 
 TEST_F(Calibrate, VoxelsOfTwoSizesAreRefused) {
@@ -191,7 +191,7 @@ TEST_F(Calibrate, VoxelsOfTwoSizesAreRefused) {
 
 // A camera that reaches nothing leaves no voxel to fit to: a reason for people, not for programmers.
 TEST_F(Calibrate, NothingToFitToIsSaidSo) {
-  expect_error(sphere_and_box + " --sensor.max_range 0.3" + small + in("out"),
+  expect_error(sphere_and_box + " --sensor.max_range 0.3" + small_calibration + in("out"),
                "sphere: there is nothing to fit to: no view met a surface");
 }
 
@@ -205,8 +205,8 @@ TEST_F(Calibrate, ViewsOfASmallPartAreAsNearAsScanTakesThem) {
 
 // Objects are taken as `scan` takes them.
 TEST_F(Calibrate, AnObjectLargerThanTheRegionIsRefusedAsByScan) {
-  expect_error("scan sphere --map.region_edge 0.4" + small + in("out"), "map.region_edge");
-  expect_error(sphere_and_box + " --map.region_edge 0.4" + small + in("out"), "map.region_edge");
+  expect_error("scan sphere --map.region_edge 0.4" + small_calibration + in("out"), "map.region_edge");
+  expect_error(sphere_and_box + " --map.region_edge 0.4" + small_calibration + in("out"), "map.region_edge");
 }
 
 // The exit code of every command that its user stops.

@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string quick =
+const std::string scan_of_cloud =
     "--views 3 --sensor.width 120 --sensor.height 90 --evaluation.surface_samples 2000 --no-pictures --no-surfaces ";
 
 TEST(CloudObject, IsScannedFromProjectionMatricesAndThatIsSaid) {
@@ -26,7 +26,7 @@ TEST(CloudObject, IsScannedFromProjectionMatricesAndThatIsSaid) {
   made_projections::write_cloud(cloud, 20'000, 0.1);
   made_projections::write_cameras(views);
   const Result run = nextview("scan " + cloud.string() + " --views.layout file --views.file " + views.string() + " " +
-                              quick + "--out " + out.string());
+                              scan_of_cloud + "--out " + out.string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("(its unit taken as mm)"),
                              HasSubstr("the object is a cloud of 20000 points: the program's own surface of it is"),
@@ -53,7 +53,8 @@ TEST(CloudObject, WhatIsWrongIsOneLine) {
              "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
              "end_header\n0 0 0\n");
   const auto expect = [&](const std::string& arguments, const char* words) {
-    const Result run = nextview("scan " + arguments + " " + quick + "--out " + (folder.path() / "out").string());
+    const Result run =
+        nextview("scan " + arguments + " " + scan_of_cloud + "--out " + (folder.path() / "out").string());
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_THAT(run.err, HasSubstr(words));
     EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;

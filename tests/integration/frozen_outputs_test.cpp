@@ -19,7 +19,7 @@ namespace nextview {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 const fs::path frozen = fs::path(NEXTVIEW_SOURCE_DIR) / "tests" / "data" / "frozen";
 constexpr std::array same_bytes = {"map.ot", "map.bt", "cloud.ply"};
@@ -74,7 +74,7 @@ void expect_same_table(const std::string& before, const std::string& now, const 
 }
 
 void expect_same_json(const std::string& before, const std::string& now, const std::string& what) {
-  const Json old_values = Json::parse(before).flatten(), new_values = Json::parse(now).flatten();
+  const OrderedJson old_values = OrderedJson::parse(before).flatten(), new_values = OrderedJson::parse(now).flatten();
   for (const auto& [path, value] : old_values.items()) {
     const std::string key = path_now_called(path);
     ASSERT_TRUE(new_values.contains(key)) << what << ": " << key;
@@ -84,8 +84,8 @@ void expect_same_json(const std::string& before, const std::string& now, const s
   }
 }
 
-Json hashes_of(const fs::path& folder) {
-  Json hashes;
+OrderedJson hashes_of(const fs::path& folder) {
+  OrderedJson hashes;
   for (const char* name : same_bytes) {
     const FileHash hash = file_hash(folder / name);
     hashes[name] = {{"bytes", hash.bytes}, {"crc32", hash.crc32}};
@@ -116,13 +116,13 @@ TEST_P(FrozenOutputs, AreWhatTheyWere) {
   }
   // Processors round rays differently in the last bit. `as_sensed` is what one view sees, before anything is made of
   // it.
-  if (hashes_of(scanned("as_sensed")) != Json::parse(read_file(frozen / "as_sensed" / "hashes.json")))
+  if (hashes_of(scanned("as_sensed")) != OrderedJson::parse(read_file(frozen / "as_sensed" / "hashes.json")))
     GTEST_SKIP() << "this processor rounds rays otherwise than the one that the outputs were frozen on; to compare two "
                     "versions here, freeze the earlier one with tests/update-frozen";
   for (const char* name : same_numbers)
     expect_same_table(read_file(before / name), read_file(now / name), GetParam() + "/" + name);
   expect_same_json(read_file(before / "metrics.json"), read_file(now / "metrics.json"), GetParam() + "/metrics.json");
-  EXPECT_EQ(hashes_of(now), Json::parse(read_file(before / "hashes.json"))) << "a map or a cloud has changed";
+  EXPECT_EQ(hashes_of(now), OrderedJson::parse(read_file(before / "hashes.json"))) << "a map or a cloud has changed";
 }
 
 INSTANTIATE_TEST_SUITE_P(Configurations, FrozenOutputs, ::testing::ValuesIn(names()),

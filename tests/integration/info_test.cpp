@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-const std::string quick =
+const std::string quick_scan =
     "--views 3 --sensor.width 120 --sensor.height 90 --views.count 12 --evaluation.surface_samples 2000 --no-pictures "
     "--no-surfaces ";
 
@@ -37,7 +37,7 @@ fs::path scaled_box(const fs::path& folder, double factor) {
 TEST(Info, TellsWhatFilesHold) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string(), part = scaled_box(folder.path(), 183.0).string();
-  ASSERT_EQ(nextview("scan slotted_plate " + quick + "--out " + out).exit_code, 0);
+  ASSERT_EQ(nextview("scan slotted_plate " + quick_scan + "--out " + out).exit_code, 0);
   const Result run = nextview("info slotted_plate " + part + " " + out + " " + out + "/cloud.ply " + out + "/map.ot " +
                               out + "/config.toml");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -208,7 +208,8 @@ TEST(Info, WhatCannotBeReadIsALineAndTheRestIsTold) {
 TEST(OwnSize, APartInMillimetresIsScannedAsLargeAsItIs) {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
-  const Result run = nextview("scan " + scaled_box(folder.path(), 183.00123).string() + " " + quick + "--out " + out);
+  const Result run =
+      nextview("scan " + scaled_box(folder.path(), 183.00123).string() + " " + quick_scan + "--out " + out);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("at d_reg = 0.915 mm")) << "as in its second line, though it is 0.915006";
   EXPECT_THAT(run.out, AllOf(HasSubstr("91.5 x 54.9 x 18.3 mm (its unit taken as mm)"), HasSubstr("voxels 2 mm")));
@@ -220,7 +221,7 @@ TEST(OwnSize, APartInMillimetresIsScannedAsLargeAsItIs) {
 
 TEST(OwnSize, OfMetresThatNobodySaidIsDoubtedWhereItIsLarge) {
   const TemporaryFolder folder;
-  const Result run = nextview("scan " + scaled_box(folder.path(), 16.0).string() + " " + quick + "--out " +
+  const Result run = nextview("scan " + scaled_box(folder.path(), 16.0).string() + " " + quick_scan + "--out " +
                               (folder.path() / "out").string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("(no unit in the file: metres; --object.unit mm if it is millimetres)"));
@@ -231,7 +232,8 @@ TEST(OwnSize, CoverageIsThatOfTheSameShapeAtHalfAMetre) {
   const auto coverage = [](double factor) {
     const TemporaryFolder folder;
     const std::string out = (folder.path() / "out").string();
-    const Result run = nextview("scan " + scaled_box(folder.path(), factor).string() + " " + quick + "--out " + out);
+    const Result run =
+        nextview("scan " + scaled_box(folder.path(), factor).string() + " " + quick_scan + "--out " + out);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     const std::string steps = read_file(folder.path() / "out" / "steps.csv", 1 << 20);
     const std::string last = steps.substr(steps.rfind('\n', steps.size() - 2) + 1);

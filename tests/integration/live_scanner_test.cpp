@@ -15,8 +15,8 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string camera = "--sensor.width 80 --sensor.height 60 --sensor.range_noise 0.003 ";
-const std::string quick =
+const std::string noisy_camera = "--sensor.width 80 --sensor.height 60 --sensor.range_noise 0.003 ";
+const std::string live_scan =
     "--views 3 --views.count 12 --evaluation.surface_samples 2000 --no-pictures --no-surfaces --seed 5 ";
 
 class LiveScanner : public testing::Test {
@@ -24,7 +24,7 @@ class LiveScanner : public testing::Test {
   std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
   /// The program's own simulator behind the protocol.
   static std::string simulated(const std::string& object) {
-    return "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated " + object + " " + camera + "' ";
+    return "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated " + object + " " + noisy_camera + "' ";
   }
   /// A driver in shell: its first words, then what it answers to each further request.
   std::string scripted(const std::string& answers) const {
@@ -39,8 +39,8 @@ class LiveScanner : public testing::Test {
 };
 
 TEST_F(LiveScanner, TheSimulatorBehindTheProtocolGivesTheSameFiles) {
-  ASSERT_EQ(nextview("scan box " + camera + quick + "--out " + in("built_in")).exit_code, 0);
-  const Result live = nextview("scan " + simulated("box") + quick + "--out " + in("live"));
+  ASSERT_EQ(nextview("scan box " + noisy_camera + live_scan + "--out " + in("built_in")).exit_code, 0);
+  const Result live = nextview("scan " + simulated("box") + live_scan + "--out " + in("live"));
   ASSERT_EQ(live.exit_code, 0) << live.err;
   EXPECT_THAT(live.out, HasSubstr("box.ply: 500 x 331 x 247 mm"));
   for (const char* file : {"map.ot", "cloud.ply", "steps.csv", "scores.csv", "views.csv"})
@@ -48,9 +48,9 @@ TEST_F(LiveScanner, TheSimulatorBehindTheProtocolGivesTheSameFiles) {
 }
 
 TEST_F(LiveScanner, WhatItsRobotSaidOfCandidatesIsKnownWithoutIt) {
-  write_file(in("driver.sh"), "exec '" NEXTVIEW_PROGRAM "' driver simulated box " + camera +
+  write_file(in("driver.sh"), "exec '" NEXTVIEW_PROGRAM "' driver simulated box " + noisy_camera +
                                   "| sed -u 's/\"reach\":\\[{[^}]*}/\"reach\":[{\"unreachable\":\"a table\"}/'\n");
-  const Result live = nextview("scan --driver 'sh " + in("driver.sh") + "' " + quick + "--out " + in("live"));
+  const Result live = nextview("scan --driver 'sh " + in("driver.sh") + "' " + live_scan + "--out " + in("live"));
   ASSERT_EQ(live.exit_code, 0) << live.err;
   const std::array tables = {"steps.csv", "scores.csv"};
   std::map<std::string, std::string> written;
@@ -63,14 +63,14 @@ TEST_F(LiveScanner, WhatItsRobotSaidOfCandidatesIsKnownWithoutIt) {
 }
 
 TEST_F(LiveScanner, TheConfigurationStartsNoProgram) {
-  ASSERT_EQ(nextview("scan " + simulated("box") + quick + "--out " + in("live")).exit_code, 0);
+  ASSERT_EQ(nextview("scan " + simulated("box") + live_scan + "--out " + in("live")).exit_code, 0);
   EXPECT_THAT(read_file(in("live") + "/config.toml"), testing::Not(HasSubstr("driver simulated")));
 }
 
 TEST_F(LiveScanner, WhoseObjectNobodyKnowsIsNeededAgainToGoOn) {
   write_file(in("driver.sh"),
-             "exec '" NEXTVIEW_PROGRAM "' driver simulated box " + camera + "| sed -u 's/\"object\":[^,]*,//'\n");
-  const Result run = nextview("scan --driver 'sh " + in("driver.sh") + "' " + quick +
+             "exec '" NEXTVIEW_PROGRAM "' driver simulated box " + noisy_camera + "| sed -u 's/\"object\":[^,]*,//'\n");
+  const Result run = nextview("scan --driver 'sh " + in("driver.sh") + "' " + live_scan +
                               "--map.region '-0.3 -0.3 -0.3 0.3 0.3 0.3' --out " + in("live"));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("nextview scan --resume " + in("live") + " --driver …; nextview window"));
@@ -78,20 +78,20 @@ TEST_F(LiveScanner, WhoseObjectNobodyKnowsIsNeededAgainToGoOn) {
 
 TEST_F(LiveScanner, ARealScanIsNotSimulatedInItsPlace) {
   write_file(in("scan.toml"), "driver.name = 'arm'\n");
-  const Result run = nextview("scan --config " + in("scan.toml") + " " + quick + "--out " + in("out"));
+  const Result run = nextview("scan --config " + in("scan.toml") + " " + live_scan + "--out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("scan.toml:1: driver.name: this scan was taken by the scanner arm"));
 }
 
 TEST_F(LiveScanner, ASettingThatConflictsIsAnErrorThatNamesIt) {
-  const Result run = nextview("scan " + simulated("box") + quick + "--sensor.width 81 --out " + in("out"));
+  const Result run = nextview("scan " + simulated("box") + live_scan + "--sensor.width 81 --out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(run.err, "nextview: --sensor.width: the scanner has its own, 80; leave it out\n");
 }
 
 TEST_F(LiveScanner, OtherThingsToScanConflictWithIt) {
   const auto refusal = [&](const std::string& arguments) {
-    const Result run = nextview("scan " + arguments + quick + "--out " + in("out"));
+    const Result run = nextview("scan " + arguments + live_scan + "--out " + in("out"));
     EXPECT_EQ(run.exit_code, 2) << arguments;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_FALSE(fs::exists(in("out"))) << arguments;
@@ -112,7 +112,7 @@ TEST_F(LiveScanner, OfAnUnknownObjectTheFirstScanSaysWhereItIsOrTheRegionIsAsked
   const std::string no_capture =
       "while read line; do id=${line#*\\\"id\\\":}; id=${id%%,*}\n"
       "echo \"{\\\"id\\\":$id,\\\"error\\\":\\\"the lens cap is on\\\"}\"; done\n";
-  const Result run = nextview("scan " + scripted(no_capture) + quick + "--out " + in("out"));
+  const Result run = nextview("scan " + scripted(no_capture) + live_scan + "--out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("the lens cap is on"));
   EXPECT_THAT(run.err, HasSubstr("unless map.region gives its box"));
@@ -127,7 +127,7 @@ TEST_F(LiveScanner, AMoveThatNoOneCanConfirmIsNotMade) {
       "*move*) touch " +
       in("moved") + ";; esac; done\n";
   const Result run =
-      nextview("scan " + scripted(reach) + quick + "--map.region '-0.2 -0.2 -0.2 0.2 0.2 0.2' --out " + in("out"));
+      nextview("scan " + scripted(reach) + live_scan + "--map.region '-0.2 -0.2 -0.2 0.2 0.2 0.2' --out " + in("out"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("--driver-confirm never"));
   EXPECT_FALSE(fs::exists(in("moved")));
@@ -141,7 +141,7 @@ TEST_F(LiveScanner, AfterAFirstMoveThatFailedTheSameCommandTriesAgain) {
       "\"{\\\"id\\\":$id,\\\"ok\\\":true,\\\"reach\\\":[{\\\"distance\\\":1,\\\"rotation\\\":1,\\\"seconds\\\":1}]}\";;"
       "\n"
       "*) echo \"{\\\"id\\\":$id,\\\"error\\\":\\\"the arm is jammed\\\"}\";; esac; done\n";
-  const std::string command = "scan " + scripted(jammed) + "--driver-confirm never " + quick +
+  const std::string command = "scan " + scripted(jammed) + "--driver-confirm never " + live_scan +
                               "--map.region '-0.2 -0.2 -0.2 0.2 0.2 0.2' --out " + in("out");
   for (const char* attempt : {"first", "second"}) {
     const Result run = nextview(command);

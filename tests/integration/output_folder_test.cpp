@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-const std::string quick =
+const std::string quick_overwrite =
     " --views 2 --views.count 6 --sensor.width 60 --sensor.height 45 --map.resolution 0.04 --map.region_edge 0.8 "
     "--evaluation.surface_samples 200 --no-pictures --overwrite ";
 
@@ -68,12 +68,13 @@ TEST_F(OutputFolder, AScanReplacesNothingThatItReads) {
   copy("sphere.ply", "io/cloud.ply");
   fs::create_symlink("io/cloud.ply", in("link.ply"));
   const auto before = contents("io");
-  expect_refused("scan io/surface_map.ply --out io" + quick, {"io/surface_map.ply: is the object", "--out io-2"});
-  expect_refused("scan link.ply --out ./io/" + quick, {"link.ply: is the object", "--out "});
-  expect_refused("scan io/cloud.ply --no-surfaces --out io/../io" + quick, {"io/cloud.ply"});
+  expect_refused("scan io/surface_map.ply --out io" + quick_overwrite,
+                 {"io/surface_map.ply: is the object", "--out io-2"});
+  expect_refused("scan link.ply --out ./io/" + quick_overwrite, {"link.ply: is the object", "--out "});
+  expect_refused("scan io/cloud.ply --no-surfaces --out io/../io" + quick_overwrite, {"io/cloud.ply"});
   expect_refused("calibrate io/cloud.ply --held-out box --views 2 --no-pictures --out io", {"io/cloud.ply"});
   EXPECT_EQ(contents("io"), before);
-  expect_done("scan io/surface_map.ply --out io-2" + quick);
+  expect_done("scan io/surface_map.ply --out io-2" + quick_overwrite);
   EXPECT_EQ(contents("io"), before);
 }
 
@@ -81,8 +82,8 @@ TEST_F(OutputFolder, AnInputUnderAnotherNameMayLieInIt) {
   copy("slotted_plate.ply", "io/part.ply");
   copy("slotted_plate.json", "io/part.json");
   const auto before = contents("io");
-  expect_done("scan io/part.ply --out io" + quick);
-  expect_done("scan io/part.ply --out io" + quick);
+  expect_done("scan io/part.ply --out io" + quick_overwrite);
+  expect_done("scan io/part.ply --out io" + quick_overwrite);
   expect_done("refine io --out io/refined --no-pictures --gibbs.sweeps 20");
   auto after = contents("io");
   for (const auto& [name, text] : before) EXPECT_TRUE(after[name] == text) << name;
@@ -90,10 +91,10 @@ TEST_F(OutputFolder, AnInputUnderAnotherNameMayLieInIt) {
 
 TEST_F(OutputFolder, AConfigurationThatIsReadStaysAndTheHintRepeatsTheScan) {
   fs::create_directories(in("a folder's"));
-  const Result first = run("scan box --out \"a folder's/out\"" + quick);
+  const Result first = run("scan box --out \"a folder's/out\"" + quick_overwrite);
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const auto before = contents("a folder's/out");
-  expect_refused("scan --config \"a folder's/out/config.toml\" --out \"a folder's/out\"" + quick,
+  expect_refused("scan --config \"a folder's/out/config.toml\" --out \"a folder's/out\"" + quick_overwrite,
                  {"config.toml: is read as configuration", "--out a folder's/out-2"});
   EXPECT_EQ(contents("a folder's/out"), before);
   const auto begin = first.out.find("nextview scan --config"), end = first.out.find('\n', begin);
@@ -107,17 +108,17 @@ TEST_F(OutputFolder, AConfigurationThatIsReadStaysAndTheHintRepeatsTheScan) {
 }
 
 TEST_F(OutputFolder, TheDefaultIsTheNextThatIsFree) {
-  expect_done("scan box" + quick);
-  expect_done("scan --config out/config.toml" + quick);
+  expect_done("scan box" + quick_overwrite);
+  expect_done("scan --config out/config.toml" + quick_overwrite);
   EXPECT_EQ(read_file(in("out-2/map.ot")), read_file(in("out/map.ot")));
   write_file(in("metrics.json"), "{}");
-  expect_refused("scan box --views.layout file --views.file metrics.json --out ." + quick,
+  expect_refused("scan box --views.layout file --views.file metrics.json --out ." + quick_overwrite,
                  {"metrics.json: is the views file", "--out ./results"});
   EXPECT_EQ(read_file(in("metrics.json")), "{}");
 }
 
 TEST_F(OutputFolder, RefineCalibrateAndScoreReplaceNothingThatTheyRead) {
-  expect_done("scan box --out out" + quick);
+  expect_done("scan box --out out" + quick_overwrite);
   const auto before = contents("out");
   expect_refused("refine out --out out --no-pictures", {"another folder", "--out out-2"});
   expect_refused("refine out --out out/../out/ --no-pictures", {"another folder"});
@@ -139,7 +140,7 @@ TEST_F(OutputFolder, ALaterRunLeavesNothingOfAnEarlierOne) {
       "--map.resolution 0.04 --map.region_edge 0.8");
   write_file(in("out/notes.txt"), "mine");
   write_file(in("out/step_99.png"), "mine too");
-  expect_done("scan box --no-surfaces --out out" + quick);
+  expect_done("scan box --no-surfaces --out out" + quick_overwrite);
   std::vector<std::string> names = file_names(in("out"));
   EXPECT_THAT(names, AllOf(Contains("notes.txt"), Contains("step_99.png"), Contains("map.ot")));
   for (const char* old : {"step_01.png", "step_04.png", "posterior.ot", "refinement.csv", "surface_posterior.ply",
@@ -152,14 +153,14 @@ TEST_F(OutputFolder, ALaterRunLeavesNothingOfAnEarlierOne) {
 }
 
 TEST_F(OutputFolder, BadInputLeavesTheResultsOfAnEarlierRun) {
-  expect_done("scan box --out out" + quick);
+  expect_done("scan box --out out" + quick_overwrite);
   const auto before = contents("out");
   write_file(in("bad.ply"), "ply\nnonsense");
-  expect_refused("scan bad.ply --out out" + quick, {"bad.ply"});
-  expect_refused("scan missing.ply --out out" + quick, {"missing.ply"});
+  expect_refused("scan bad.ply --out out" + quick_overwrite, {"bad.ply"});
+  expect_refused("scan missing.ply --out out" + quick_overwrite, {"missing.ply"});
   expect_refused("scan box --out out --map.region_edge 0.3" + std::string(" --no-pictures --overwrite"), {"region"});
   EXPECT_EQ(contents("out"), before);
-  expect_refused("scan bad.ply --out new" + quick, {"bad.ply"});
+  expect_refused("scan bad.ply --out new" + quick_overwrite, {"bad.ply"});
   EXPECT_FALSE(fs::exists(in("new"))) << "nothing is left behind";
 }
 
@@ -187,8 +188,8 @@ TEST_F(OutputFolder, AStoppedOrKilledRunLeavesARightList) {
 }
 
 TEST_F(OutputFolder, WhatIsNoSessionReplacesNone) {
-  expect_done("scan box --out one" + quick);
-  expect_done("scan box --out two" + quick);
+  expect_done("scan box --out one" + quick_overwrite);
+  expect_done("scan box --out two" + quick_overwrite);
   write_file(in("mine.nextview"), "wait 0.1\n");
   const auto before = contents("two");
   const std::vector<std::string> refusal = {"two: holds a session, which would be lost", "--out two-2"};
@@ -202,20 +203,20 @@ TEST_F(OutputFolder, WhatIsNoSessionReplacesNone) {
 TEST_F(OutputFolder, AFolderWithAManifestOfSomethingElseIsLeftAlone) {
   fs::create_directories(in("site"));
   write_file(in("site/manifest.json"), "{\"name\": \"a web page\", \"icons\": []}");
-  expect_refused("scan box --out site" + quick, {"site/manifest.json", "another folder"});
+  expect_refused("scan box --out site" + quick_overwrite, {"site/manifest.json", "another folder"});
   EXPECT_EQ(contents("site").size(), 1u);
 }
 
 TEST_F(OutputFolder, IsRefinedFromAnywhereAndAfterItWasMoved) {
   copy("box.ply", "here/part.ply");
   fs::create_directories(in("there/deep"));
-  expect_done("scan part.ply --out out" + quick, "here");
+  expect_done("scan part.ply --out out" + quick_overwrite, "here");
   expect_done("refine here/out --out one --no-pictures --no-surfaces --gibbs.sweeps 20");
   expect_done("refine ../../here/out --out ../two --no-pictures --no-surfaces --gibbs.sweeps 20", "there/deep");
   EXPECT_EQ(read_file(in("one/posterior.ot")), read_file(in("there/two/posterior.ot")));
   EXPECT_EQ(read_file(in("one/config.toml")), read_file(in("there/two/config.toml")));
   copy("box.ply", "here/out/inside.ply");
-  expect_done("scan out/inside.ply --out out" + quick, "here");
+  expect_done("scan out/inside.ply --out out" + quick_overwrite, "here");
   EXPECT_EQ(toml_value(read_file(in("here/out/config.toml")), "file"), "") << "object and views: two";
   EXPECT_THAT(read_file(in("here/out/config.toml")), HasSubstr("file = 'inside.ply'"));
   fs::rename(in("here/out"), in("there/moved"));
@@ -225,7 +226,7 @@ TEST_F(OutputFolder, IsRefinedFromAnywhereAndAfterItWasMoved) {
 // As 0.4.0 wrote it: a path relative to the folder that the program was run in, and no list.
 TEST_F(OutputFolder, OfTheVersionBeforeIsStillReadWhereItWasMade) {
   copy("box.ply", "part.ply");
-  expect_done("scan part.ply --out out" + quick);
+  expect_done("scan part.ply --out out" + quick_overwrite);
   std::string config = read_file(in("out/config.toml"));
   const std::string absolute = in("part.ply").string();
   config.replace(config.find(absolute), absolute.size(), "part.ply");
@@ -237,13 +238,13 @@ TEST_F(OutputFolder, OfTheVersionBeforeIsStillReadWhereItWasMade) {
   EXPECT_EQ(lost.exit_code, 2);
   EXPECT_THAT(lost.err, AllOf(HasSubstr("out/config.toml:4: object.file: part.ply")));
   write_file(in("out/step_20.png"), "of the version before");
-  expect_done("scan box --out out" + quick);
+  expect_done("scan box --out out" + quick_overwrite);
   EXPECT_FALSE(fs::exists(in("out/step_20.png")));
 }
 
 TEST_F(OutputFolder, AChangedObjectIsNoticed) {
   copy("box.ply", "part.ply");
-  expect_done("scan part.ply --out out" + quick);
+  expect_done("scan part.ply --out out" + quick_overwrite);
   fs::copy_file(NEXTVIEW_SOURCE_DIR "/assets/objects/sphere.ply", in("part.ply"), fs::copy_options::overwrite_existing);
   expect_refused("refine out --out refined --no-pictures",
                  {"part.ply", "has changed since out was scanned", "scan it again"});
@@ -253,7 +254,7 @@ TEST_F(OutputFolder, AChangedObjectIsNoticed) {
 
 TEST_F(OutputFolder, AnUnrelatedFileBesideTheObjectIsNoFault) {
   copy("box.ply", "part.ply");
-  expect_done("scan part.ply --out out" + quick);
+  expect_done("scan part.ply --out out" + quick_overwrite);
   for (const char* text : {"{\"version\": 3}", "[1, 2]", "no JSON", "", "{\"unit\": \"m\", \"openings\": [7]}"}) {
     write_file(in("part.json"), text);
     const Result result = run("refine out --out refined --no-pictures --no-surfaces --gibbs.sweeps 20");
@@ -267,16 +268,16 @@ TEST_F(OutputFolder, AnUnrelatedFileBesideTheObjectIsNoFault) {
 }
 
 TEST_F(OutputFolder, AFolderOfAKnownObjectsNameDoesNotHideIt) {
-  expect_done("scan box --out box" + quick);
-  expect_done("scan box --out again" + quick);
+  expect_done("scan box --out box" + quick_overwrite);
+  expect_done("scan box --out again" + quick_overwrite);
   expect_done("refine box --out refined --no-pictures --no-surfaces --gibbs.sweeps 20");
 }
 
 TEST_F(OutputFolder, SenselessSetupsAreToldBeforeTheFirstView) {
-  const Result blind = run("scan box --out out --sensor.max_range 0.3" + quick);
+  const Result blind = run("scan box --out out --sensor.max_range 0.3" + quick_overwrite);
   EXPECT_EQ(blind.exit_code, 0);
   EXPECT_THAT(blind.err, AllOf(HasSubstr("warning: 7 of 7 views"), HasSubstr("sensor.max_range (300 mm)")));
-  EXPECT_THAT(run("scan box --out out" + quick).err, Not(HasSubstr("warning")));
+  EXPECT_THAT(run("scan box --out out" + quick_overwrite).err, Not(HasSubstr("warning")));
 }
 
 }  // namespace

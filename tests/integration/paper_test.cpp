@@ -38,15 +38,15 @@ class Paper : public ::testing::Test {
   const TemporaryFolder folder_;
 };
 
-const std::string coarse =
+const std::string noisy_box_scan =
     "scan box --views 2 --sensor.width 60 --sensor.height 45 --map.resolution 0.04 --views.count 6 "
     "--sensor.range_noise "
     "0.003 --evaluation.surface_samples 100 --no-pictures --no-surfaces ";
 
 // The folder's camera, map and views are what was scanned: only how the map is refined, and the seed, can be told.
 TEST_F(Paper, RefineTakesOfAConfigurationTheSamplerAndTheSeedOnly) {
-  run(coarse + "--seed 5 --out " + in("scan"));
-  run(coarse + "--config paper --seed 6 --out " + in("paper"));
+  run(noisy_box_scan + "--seed 5 --out " + in("scan"));
+  run(noisy_box_scan + "--config paper --seed 6 --out " + in("paper"));
   const Sections scanned = configuration("scan"), paper = configuration("paper");
   ASSERT_NE(scanned.gibbs, paper.gibbs);
   for (const char* line : {"\nmodel = 'paper' ", "\nsampler = 'algorithm1' ", "\nsweeps = 20 ", "\nchains = 1 "})
@@ -66,12 +66,12 @@ TEST_F(Paper, RefineTakesOfAConfigurationTheSamplerAndTheSeedOnly) {
 }
 
 TEST_F(Paper, ScanTakesAllOfItAndOptionsOverrideIt) {
-  run(coarse + "--config paper --out " + in("paper"));
-  run(coarse + "--config paper --planner.cost_weight 0.5 --out " + in("own"));
+  run(noisy_box_scan + "--config paper --out " + in("paper"));
+  run(noisy_box_scan + "--config paper --planner.cost_weight 0.5 --out " + in("own"));
   EXPECT_THAT(configuration("paper").rest, ::testing::HasSubstr("\ngain = 'occlusion-aware'"));
   EXPECT_THAT(configuration("paper").rest, ::testing::HasSubstr("\ncost_weight = 1 "));
   EXPECT_THAT(configuration("own").rest, ::testing::HasSubstr("\ncost_weight = 0.5 "));
-  run(coarse + "--out " + in("default"));
+  run(noisy_box_scan + "--out " + in("default"));
   EXPECT_THAT(configuration("default").rest, ::testing::HasSubstr("\ngain = 'new-surface'"));
   EXPECT_THAT(configuration("default").rest, ::testing::HasSubstr("\ncost_weight = 0.3 "));
 }

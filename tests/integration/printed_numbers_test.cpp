@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/file/atomic_file.hpp"
+#include "tests/integration/housing_scan.hpp"
 #include "tests/integration/program.hpp"
 #include "tests/integration/tables.hpp"
 
@@ -18,10 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string quick =
-    "scan " NEXTVIEW_SOURCE_DIR
-    "/assets/objects/slotted_housing.ply --views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 "
-    "--map.region_edge 0.72 --views.count 12 --evaluation.surface_samples 2000 --no-pictures --no-surfaces ";
+const std::string printing_scan = "scan " + housing() + "--views 3 " + coarse_housing + "--no-pictures --no-surfaces ";
 
 /// The words of the lines that begin with a number.
 std::vector<std::vector<std::string>> numbered_rows(const std::string& text) {
@@ -72,7 +70,7 @@ class PrintedNumbers : public ::testing::Test {
 // seconds
 TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
   // By this gain the two coverages differ at every step, so that they cannot be mixed up.
-  const std::string out = run(quick + "--gain proximity-count --out " + in("out"));
+  const std::string out = run(printing_scan + "--gain proximity-count --out " + in("out"));
   EXPECT_THAT(out, HasSubstr("% visible   entropy Mbit"));
   const auto rows = numbered_rows(out.substr(out.find("% visible")));
   const Table steps = table("out/steps.csv");
@@ -101,7 +99,7 @@ TEST_F(PrintedNumbers, AScansRowsAreThoseOfItsSteps) {
 }
 
 TEST_F(PrintedNumbers, ARefinementsTableIsThatOfItsMetrics) {
-  run(quick + "--out " + in("scan"));
+  run(printing_scan + "--out " + in("scan"));
   const std::string out =
       run("refine " + in("scan") + " --gibbs.sweeps 80 --no-pictures --no-surfaces --out " + in("refined"));
   const auto metrics = json("refined/metrics.json");
@@ -192,7 +190,7 @@ TEST_F(PrintedNumbers, ACalibrationsTableIsThatOfItsScores) {
 
 // Whoever waits for a script must see that it did not finish: 130, with what was sampled until then.
 TEST_F(PrintedNumbers, AStoppedRefinementEndsWith130) {
-  run(quick + "--out " + in("scan"));
+  run(printing_scan + "--out " + in("scan"));
   const std::string endless =
       "refine " + in("scan") +
       " --no-pictures --no-surfaces --gibbs.until_stationary false --gibbs.sweeps 1000000 --out " + in("refined");
@@ -208,7 +206,7 @@ TEST_F(PrintedNumbers, AStoppedRefinementEndsWith130) {
 
 // Sweeps that are asked for are made, whatever the scan's own configuration says.
 TEST_F(PrintedNumbers, ARefinementMakesTheSweepsThatItWasTold) {
-  run(quick + "--gibbs.sweeps 30 --out " + in("scan"));
+  run(printing_scan + "--gibbs.sweeps 30 --out " + in("scan"));
   for (const int sweeps : {12, 20}) {
     run(fmt::format("refine {} --no-pictures --no-surfaces --gibbs.until_stationary false --gibbs.sweeps {} --out {}",
                     in("scan"), sweeps, in("refined")));

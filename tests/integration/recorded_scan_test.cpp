@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
 
-const std::string quick = "--no-pictures --no-surfaces ";
+const std::string maps_alone = "--no-pictures --no-surfaces ";
 
 class RecordedScan : public testing::Test {
  protected:
@@ -28,7 +28,7 @@ class RecordedScan : public testing::Test {
   std::string scan_of_a_plate() const {
     const std::string small =
         "--views 4 --views.count 12 --sensor.width 120 --sensor.height 90 --evaluation.surface_samples 2000 ";
-    EXPECT_EQ(nextview("scan slotted_plate " + small + quick + "--out " + in("scan")).exit_code, 0);
+    EXPECT_EQ(nextview("scan slotted_plate " + small + maps_alone + "--out " + in("scan")).exit_code, 0);
     return in("scan");
   }
 
@@ -37,7 +37,8 @@ class RecordedScan : public testing::Test {
 
 TEST_F(RecordedScan, ReplayedInItsOrderGivesItsFiles) {
   const std::string scan = scan_of_a_plate();
-  const Result run = nextview("scan --recorded " + scan + " --gain fixed-order " + quick + "--out " + in("replay"));
+  const Result run =
+      nextview("scan --recorded " + scan + " --gain fixed-order " + maps_alone + "--out " + in("replay"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr("scan: 4 recorded frames"), HasSubstr("planned   recorded   random")));
   for (const char* file : {"map.ot", "map.bt", "cloud.ply"})
@@ -45,7 +46,7 @@ TEST_F(RecordedScan, ReplayedInItsOrderGivesItsFiles) {
   EXPECT_THAT(read_file(in("replay") + "/orders.csv"), HasSubstr("\n1,0,step 1,"));
   // And what was made of a recording can be refined, and gone through again.
   EXPECT_EQ(nextview("refine " + in("replay") + " --no-pictures --out " + in("refined")).exit_code, 0);
-  const Result again = nextview("scan " + in("replay") + " --gain fixed-order " + quick + "--out " + in("again"));
+  const Result again = nextview("scan " + in("replay") + " --gain fixed-order " + maps_alone + "--out " + in("again"));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(read_file(scan + "/map.ot"), read_file(in("again") + "/map.ot"));
 }
@@ -54,10 +55,10 @@ TEST_F(RecordedScan, ReplayedInItsOrderGivesItsFiles) {
 TEST_F(RecordedScan, HasTheSettingsOfTheScanButItsEnd) {
   ASSERT_EQ(nextview("scan box --views 2 --views.count 12 --sensor.width 80 --sensor.height 60 "
                      "--evaluation.surface_samples 500 --termination.coverage 0.99 " +
-                     quick + "--out " + in("scan"))
+                     maps_alone + "--out " + in("scan"))
                 .exit_code,
             0);
-  ASSERT_EQ(nextview("scan --recorded " + in("scan") + " " + quick + "--out " + in("out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan --recorded " + in("scan") + " " + maps_alone + "--out " + in("out")).exit_code, 0);
   EXPECT_THAT(read_file(in("scan") + "/config.toml"),
               AllOf(HasSubstr("\ncoverage = 0.99 "), HasSubstr("\nwidth = 80 ")));
   EXPECT_THAT(read_file(in("out") + "/config.toml"), AllOf(HasSubstr("\ncoverage = 0 "), HasSubstr("\nwidth = 80 ")));
@@ -75,7 +76,7 @@ TEST_F(RecordedScan, TheRegionIsAroundThePoints) {
              "end_header\n" +
                  points);
   write_file(folder / "poses.txt", "0 0 0 0 0 0 1\n");
-  const Result run = nextview("scan --recorded " + folder.string() + " " + quick + "--out " + in("out"));
+  const Result run = nextview("scan --recorded " + folder.string() + " " + maps_alone + "--out " + in("out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const std::string config = read_file(in("out") + "/config.toml");
   const std::size_t at = config.find("\nregion = '");
@@ -93,8 +94,8 @@ TEST_F(RecordedScan, TheRegionIsAroundThePoints) {
 }
 
 TEST_F(RecordedScan, IsComparedWithATruthThatIsFound) {
-  const Result run = nextview("scan --recorded " + scan_of_a_plate() + " --truth slotted_plate --start 2 " + quick +
-                              "--out " + in("out"));
+  const Result run = nextview("scan --recorded " + scan_of_a_plate() + " --truth slotted_plate --start 2 " +
+                              maps_alone + "--out " + in("out"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("of its points lie on slotted_plate.ply"));
   EXPECT_THAT(run.out, AllOf(HasSubstr("% shown"), HasSubstr("of the true surface, of which ")));
@@ -127,15 +128,15 @@ TEST_F(RecordedScan, AMapIsWhatAnotherScanBeginsWith) {
   const std::string scan = scan_of_a_plate();
   const std::string small =
       "scan slotted_plate --views 1 --views.count 12 --sensor.width 120 --sensor.height 90 --evaluation.enabled false ";
-  ASSERT_EQ(nextview(small + "--map.start " + scan + "/map.ot " + quick + "--out " + in("more")).exit_code, 0);
+  ASSERT_EQ(nextview(small + "--map.start " + scan + "/map.ot " + maps_alone + "--out " + in("more")).exit_code, 0);
   const auto measured = [](const std::string& folder) {
     const OccupancyMap map = read_octree(folder + "/map.ot");
     return std::ranges::count_if(map.voxels(), &Voxel::measured);
   };
-  ASSERT_EQ(nextview(small + quick + "--out " + in("without")).exit_code, 0);
+  ASSERT_EQ(nextview(small + maps_alone + "--out " + in("without")).exit_code, 0);
   EXPECT_LT(measured(in("without")), measured(scan) * 9 / 10) << "one view alone shows less";
   EXPECT_GE(measured(in("more")), measured(scan)) << "something of it is lost";
-  const Result alone = nextview("scan " + scan + "/map.ot " + quick + "--out " + in("alone"));
+  const Result alone = nextview("scan " + scan + "/map.ot " + maps_alone + "--out " + in("alone"));
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_THAT(alone.err, HasSubstr("a map alone"));
 }
@@ -145,7 +146,7 @@ TEST_F(RecordedScan, RealRangeImagesAreGoneThroughByAnyPlanner) {
   if (!fs::exists(bunny)) GTEST_SKIP() << "an addition: " << bunny << " is not there";
   for (const char* gain : {"new-surface", "occlusion-aware", "random"}) {
     const Result run =
-        nextview("scan --recorded " + bunny.string() + " --gain " + gain + " " + quick + "--out " + in(gain));
+        nextview("scan --recorded " + bunny.string() + " --gain " + gain + " " + maps_alone + "--out " + in(gain));
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("Finished: 10 views taken."));
   }

@@ -8,6 +8,7 @@
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
 #include "tests/data/conformance.hpp"
+#include "tests/integration/housing_scan.hpp"
 #include "tests/integration/program.hpp"
 #include "tests/integration/tables.hpp"
 #include "tests/unit/cloud/made_range_scans.hpp"
@@ -18,16 +19,12 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string quick =
-    "--views 3 --sensor.width 120 --sensor.height 90 --map.resolution 0.02 --map.region_edge 0.72 --views.count 12 "
-    "--evaluation.surface_samples 2000 --no-pictures ";
-
-std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
+const std::string three_views = housing() + "--views 3 " + coarse_housing + "--no-pictures ";
 
 class Refine : public ::testing::Test {
  protected:
   void SetUp() override {
-    const Result run = nextview("scan " + housing() + quick + "--no-surfaces --out " + scan());
+    const Result run = nextview("scan " + three_views + "--no-surfaces --out " + scan());
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
   std::string scan() const { return (folder_.path() / "scan").string(); }
@@ -178,7 +175,7 @@ TEST(RefineScenes, ScoringASceneByTheGibbsGainRefinesIt) {
 
 TEST(GibbsScan, WritesThePosteriorAndWhatRefinementDid) {
   const TemporaryFolder folder;
-  const Result run = nextview("scan " + housing() + quick + "--gain gibbs --out " + folder.path().string());
+  const Result run = nextview("scan " + three_views + "--gain gibbs --out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("without refinement"));
   EXPECT_NO_THROW(read_octree(folder.path() / "posterior.ot"));

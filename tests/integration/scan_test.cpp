@@ -9,6 +9,7 @@
 
 #include "core/file/atomic_file.hpp"
 #include "core/map/octree_file.hpp"
+#include "tests/integration/housing_scan.hpp"
 #include "tests/integration/program.hpp"
 #include "tests/integration/tables.hpp"
 
@@ -18,17 +19,9 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A scan that takes a second or two: few pixels, coarse voxels.
-const std::string coarse =
-    "--sensor.width 120 --sensor.height 90 --map.resolution 0.02 --map.region_edge 0.72 --views.count 12 "
-    "--evaluation.surface_samples 2000 ";
-const std::string quick = "--views 3 " + coarse;
-
-std::string housing() { return NEXTVIEW_SOURCE_DIR "/assets/objects/slotted_housing.ply "; }
-
 TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
   const TemporaryFolder folder;
-  const Result run = nextview("scan " + housing() + coarse + "--views 2 --out " + folder.path().string());
+  const Result run = nextview("scan " + housing() + coarse_housing + "--views 2 --out " + folder.path().string());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* file : {"config.toml",
                            "steps.csv",
@@ -66,7 +59,9 @@ TEST(Scan, WritesEveryFileAndAPictureOfEachStep) {
 
 TEST(Scan, SameConfigurationAndSeedGiveTheSameBytesOnAnyNumberOfThreads) {
   const TemporaryFolder one, two;
-  ASSERT_EQ(nextview("--threads 1 scan " + housing() + coarse + "--views 2 --out " + one.path().string()).exit_code, 0);
+  ASSERT_EQ(
+      nextview("--threads 1 scan " + housing() + coarse_housing + "--views 2 --out " + one.path().string()).exit_code,
+      0);
   const std::string repeat =
       "--threads 2 scan --config " + (one.path() / "config.toml").string() + " --out " + two.path().string();
   ASSERT_EQ(nextview(repeat).exit_code, 0);
@@ -79,7 +74,7 @@ TEST(Scan, SameConfigurationAndSeedGiveTheSameBytesOnAnyNumberOfThreads) {
 
 TEST(Scan, AnotherSeedGivesAnotherCloud) {
   const TemporaryFolder one, two;
-  const std::string plain = "scan " + housing() + coarse + "--views 1 --no-pictures --no-surfaces --out ";
+  const std::string plain = "scan " + housing() + coarse_housing + "--views 1 --no-pictures --no-surfaces --out ";
   ASSERT_EQ(nextview(plain + one.path().string() + " --seed 1").exit_code, 0);
   ASSERT_EQ(nextview(plain + two.path().string() + " --seed 2").exit_code, 0);
   EXPECT_FALSE(read_file(one.path() / "cloud.ply") == read_file(two.path() / "cloud.ply"));
@@ -87,8 +82,9 @@ TEST(Scan, AnotherSeedGivesAnotherCloud) {
 
 TEST(Scan, TheSimulatedCameraStaysInItsWorkingVolume) {
   const TemporaryFolder folder;
-  const Result run = nextview("scan " + housing() + quick + "--no-pictures --no-surfaces --out " +
-                              folder.path().string() + " --robot.working_volume '-2 -2 0 2 2 2'");
+  const Result run =
+      nextview("scan " + housing() + "--views 3 " + coarse_housing + "--no-pictures --no-surfaces --out " +
+               folder.path().string() + " --robot.working_volume '-2 -2 0 2 2 2'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const auto& view : read_table(read_file(folder.path() / "views.csv")))
     EXPECT_GE(std::stod(view.at("z[m]")), 0.0) << "view " << view.at("view");
@@ -96,8 +92,8 @@ TEST(Scan, TheSimulatedCameraStaysInItsWorkingVolume) {
 
 TEST(Scan, ACameraThatSeesNothingIsAViewWithoutReturns) {
   const TemporaryFolder folder;
-  const Result run =
-      nextview("scan " + housing() + quick + "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
+  const Result run = nextview("scan " + housing() + "--views 3 " + coarse_housing +
+                              "--sensor.max_range 0.3 --no-pictures --out " + folder.path().string());
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 

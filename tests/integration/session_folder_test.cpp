@@ -17,8 +17,8 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string camera = "--sensor.width 60 --sensor.height 45 ";
-const std::string quick =
+const std::string small_camera = "--sensor.width 60 --sensor.height 45 ";
+const std::string short_session =
     "--views.count 6 --map.resolution 0.04 --map.region_edge 0.8 --evaluation.surface_samples 200 --no-pictures "
     "--no-surfaces ";
 
@@ -62,14 +62,15 @@ class SessionFolders : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// With the camera built in, and with the same one behind a driver.
+/// With the small_camera built in, and with the same one behind a driver.
 class KilledSessions : public SessionFolders, public testing::WithParamInterface<bool> {
  protected:
   std::string source() const {
-    return GetParam() ? "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated box " + camera + "' " : "";
+    return GetParam() ? "--driver '\"" NEXTVIEW_PROGRAM "\" driver simulated box " + small_camera + "' " : "";
   }
   std::string scan(const std::string& name) const {
-    return "scan " + (GetParam() ? source() : "box " + camera) + "--views 3 " + quick + "--out " + in(name);
+    return "scan " + (GetParam() ? source() : "box " + small_camera) + "--views 3 " + short_session + "--out " +
+           in(name);
   }
   std::string resumed() const { return "scan --resume " + in("killed") + " --no-pictures --no-surfaces " + source(); }
   /// What a user does after the scan into "killed" was ended, and that it comes to what a whole one gives.
@@ -124,7 +125,7 @@ TEST_P(KilledSessions, AtRandomMomentsGoOnToTheSameBytes) {
 
 /// At every write by NEXTVIEW_EVERY_WRITE=1, at some of them here. Where there is room again it goes on.
 TEST_F(SessionFolders, AFullDiskAtAnyWriteIsSaidAndItGoesOnLater) {
-  const std::string scan = "scan box --views 3 " + camera + quick;
+  const std::string scan = "scan box --views 3 " + small_camera + short_session;
   const long calls = run_and_kill(0, in("whole"), scan + "--out " + in("whole"));
   ASSERT_GT(calls, 60);
   const long stride = std::getenv("NEXTVIEW_EVERY_WRITE") ? 1 : calls / 10;
@@ -147,7 +148,7 @@ TEST_F(SessionFolders, AFullDiskAtAnyWriteIsSaidAndItGoesOnLater) {
 }
 
 TEST_F(SessionFolders, IsReplacedOnlyIfOneSaysSo) {
-  const std::string scan = "scan box --views 1 " + camera + quick + "--out " + in("out");
+  const std::string scan = "scan box --views 1 " + small_camera + short_session + "--out " + in("out");
   ASSERT_EQ(nextview(scan).exit_code, 0);
   write_file(in("out/note.txt"), "mine");
   expect_refused(scan, "holds a session: --resume goes on with it, --overwrite replaces it");
@@ -155,11 +156,12 @@ TEST_F(SessionFolders, IsReplacedOnlyIfOneSaysSo) {
   EXPECT_EQ(read_file(in("out/note.txt")), "mine");
   fs::create_directories(in("mine"));
   write_file(in("mine/note.txt"), "mine");
-  expect_refused("scan box --overwrite --views 1 " + camera + quick + "--out " + in("mine"), "holds no session");
+  expect_refused("scan box --overwrite --views 1 " + small_camera + short_session + "--out " + in("mine"),
+                 "holds no session");
 }
 
 TEST_F(SessionFolders, GoesOnBeyondItsEndWithAnotherOne) {
-  const std::string scan = "scan box " + camera + quick;
+  const std::string scan = "scan box " + small_camera + short_session;
   ASSERT_EQ(nextview(scan + "--views 2 --out " + in("two")).exit_code, 0);
   ASSERT_EQ(nextview(scan + "--views 4 --out " + in("four")).exit_code, 0);
   const Result on = nextview("scan --resume " + in("two") + " --views 4 --no-pictures --no-surfaces");
@@ -170,7 +172,7 @@ TEST_F(SessionFolders, GoesOnBeyondItsEndWithAnotherOne) {
 }
 
 TEST_F(SessionFolders, AFinishedOneGetsWhatIsMissing) {
-  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("whole")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 2 " + small_camera + short_session + "--out " + in("whole")).exit_code, 0);
   fs::copy(in("whole"), in("part"), fs::copy_options::recursive);
   for (const char* name :
        {"map.ot", "cloud.ply", "steps.csv", "views.csv", "metrics.json", "config.toml", "manifest.json"})
@@ -182,7 +184,7 @@ TEST_F(SessionFolders, AFinishedOneGetsWhatIsMissing) {
 }
 
 TEST_F(SessionFolders, AFinishedOneThatIsWholeIsNotGoneThroughAgain) {
-  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 2 " + small_camera + short_session + "--out " + in("out")).exit_code, 0);
   const auto before = fs::last_write_time(in("out/map.ot"));
   const std::string again = "scan --resume " + in("out") + " --no-pictures --no-surfaces";
   const Result nothing = nextview(again);
@@ -197,7 +199,7 @@ TEST_F(SessionFolders, AFinishedOneThatIsWholeIsNotGoneThroughAgain) {
 }
 
 TEST_F(SessionFolders, AFinishedOneThatLostACaptureKeepsItsResults) {
-  ASSERT_EQ(nextview("scan box --views 3 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 3 " + small_camera + short_session + "--out " + in("out")).exit_code, 0);
   for (const char* damaged : {"out/state", "out/scans/0002.npy"}) {
     std::string bytes = read_file(in(damaged));
     bytes[bytes.size() / 2] ^= 1;
@@ -214,7 +216,8 @@ TEST_F(SessionFolders, AFinishedOneThatLostACaptureKeepsItsResults) {
 
 TEST_F(SessionFolders, MayNotEndEarlierThanItHas) {
   ASSERT_EQ(
-      nextview("scan box --views 3 --termination.surface_left 0 " + camera + quick + "--out " + in("out")).exit_code,
+      nextview("scan box --views 3 --termination.surface_left 0 " + small_camera + short_session + "--out " + in("out"))
+          .exit_code,
       0);
   const std::string before = read_file(in("out/config.toml"));
   expect_refused("scan --resume " + in("out") + " --no-pictures --termination.surface_left 1",
@@ -224,7 +227,7 @@ TEST_F(SessionFolders, MayNotEndEarlierThanItHas) {
 
 TEST_F(SessionFolders, MayBeMovedWithTheObjectThatLiesInside) {
   fs::create_directories(in("a"));
-  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("a/out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 2 " + small_camera + short_session + "--out " + in("a/out")).exit_code, 0);
   fs::rename(in("a"), in("b"));
   EXPECT_EQ(nextview("scan --resume " + in("b/out") + " --views 3 --no-pictures --no-surfaces").exit_code, 0);
   fs::remove(in("b/out/views.csv"));
@@ -236,7 +239,9 @@ TEST_F(SessionFolders, MayBeMovedWithTheObjectThatLiesInside) {
 TEST_F(SessionFolders, ThatTheWindowKeepsAreKnownByTheirNamesAlone) {
   const std::string name = "'2026-01-31 23.59.59 box'", state = in("state");
   fs::create_directories(state + "/nextview");
-  ASSERT_EQ(nextview("scan box --views 1 " + quick + camera + "--out " + state + "/nextview/" + name).exit_code, 0);
+  ASSERT_EQ(
+      nextview("scan box --views 1 " + short_session + small_camera + "--out " + state + "/nextview/" + name).exit_code,
+      0);
   const auto run = [&](const std::string& arguments) {
     return nextview_behind("env XDG_STATE_HOME=" + state, arguments);
   };
@@ -252,14 +257,16 @@ TEST_F(SessionFolders, ThatTheWindowKeepsAreKnownByTheirNamesAlone) {
 
 TEST_F(SessionFolders, AnObjectThatIsGoneIsToBePutBack) {
   fs::copy(NEXTVIEW_SOURCE_DIR "/assets/objects/box.ply", in("part.ply"));
-  ASSERT_EQ(nextview("scan " + in("part.ply") + " --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan " + in("part.ply") + " --views 1 " + small_camera + short_session + "--out " + in("out"))
+                .exit_code,
+            0);
   fs::remove(in("part.ply"));
   expect_refused("scan --resume " + in("out"),
                  "part.ply: is not there, and " + in("out") + " was scanned of it; put it back");
 }
 
 TEST_F(SessionFolders, OfOneWithoutAJournalNoCaptureIsWrittenOver) {
-  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 2 " + small_camera + short_session + "--out " + in("out")).exit_code, 0);
   fs::remove(in("out/journal"));
   const std::string capture = read_file(in("out/scans/0002.npy"));
   expect_refused("scan --resume " + in("out"),
@@ -288,14 +295,14 @@ TEST_F(SessionFolders, RejectedScansAreFollowedByOtherViewsAndThenByTheEnd) {
 }
 
 TEST_F(SessionFolders, MistakesAreOneLine) {
-  ASSERT_EQ(nextview("scan box --views 1 " + camera + quick + "--out " + in("out")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 1 " + small_camera + short_session + "--out " + in("out")).exit_code, 0);
   expect_refused("scan --resume " + in("nothing"), "nothing: there is no such folder; give the folder of a session");
   expect_refused("scan --resume " + in("out/journal"), "out/journal: is a file; give the folder of a session");
   expect_refused("scan --resume " + in("out/scans"), "out/scans: holds no session; give");
   expect_refused("scan --resume " + in("out") + " --planner.gain random",
                  "termination.* and the limits of registration alone may change");
   expect_refused("scan --resume " + in("out") + " --out " + in("other"), "--out");
-  ASSERT_EQ(nextview("scan box --views 2 " + camera + quick + "--out " + in("two")).exit_code, 0);
+  ASSERT_EQ(nextview("scan box --views 2 " + small_camera + short_session + "--out " + in("two")).exit_code, 0);
   const std::string before = read_file(in("two/config.toml"));
   expect_refused("scan --resume " + in("two") + " --views 1", "two has 2 views already; give more to go on");
   EXPECT_EQ(read_file(in("two/config.toml")), before);

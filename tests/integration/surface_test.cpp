@@ -19,7 +19,7 @@ using ::testing::Not;
 namespace fs = std::filesystem;
 
 /// Few pixels, coarse voxels, a region that leaves little room around the object.
-const std::string quick =
+const std::string coarse_surface =
     " --sensor.width 80 --sensor.height 60 --map.resolution 0.03 --map.region_edge 0.72 --views.count 12 "
     "--evaluation.surface_samples 1000 ";
 
@@ -124,7 +124,7 @@ TEST_F(Surfaces, AScanOfASphereIsASphereInMillimetres) {
 }
 
 TEST_F(Surfaces, OneViewIsEnoughAndPicturesAreDrawn) {
-  const std::string printed = run("scan slotted_plate --views 1" + quick, "out");
+  const std::string printed = run("scan slotted_plate --views 1" + coarse_surface, "out");
   EXPECT_THAT(surface_names("out"),
               ElementsAre("surface_cloud.ply", "surface_cloud.png", "surface_cloud.stl", "surface_map.ply",
                           "surface_map.png", "surface_map.stl", "surface_map_unseen.stl", "surfaces.json"));
@@ -142,7 +142,7 @@ TEST_F(Surfaces, OneViewIsEnoughAndPicturesAreDrawn) {
 }
 
 TEST_F(Surfaces, NoneIfNotWanted) {
-  const std::string printed = run("scan box --views 1 --no-pictures --no-surfaces" + quick, "scan");
+  const std::string printed = run("scan box --views 1 --no-pictures --no-surfaces" + coarse_surface, "scan");
   EXPECT_THAT(surface_names("scan"), ElementsAre());
   EXPECT_THAT(printed, Not(HasSubstr("urface_")));
   EXPECT_THAT(run("refine " + in("scan").string() + " --no-pictures --no-surfaces", "refined"),
@@ -151,14 +151,15 @@ TEST_F(Surfaces, NoneIfNotWanted) {
 }
 
 TEST_F(Surfaces, WithoutEvaluationNothingIsHeldAgainstTheTruth) {
-  const std::string printed = run("scan box --views 3 --evaluation.enabled false --no-pictures" + quick, "out");
+  const std::string printed =
+      run("scan box --views 3 --evaluation.enabled false --no-pictures" + coarse_surface, "out");
   EXPECT_THAT(printed, Not(HasSubstr("true surface")));
   for (const std::string name : {"surface_map", "surface_cloud"})
     expect_sane(surfaces("out")[name], in("out"), name, false);
 }
 
 TEST_F(Surfaces, AScanPlannedOnTheGibbsMapShowsThatMapOnAnyNumberOfThreads) {
-  const std::string scan = " scan box --views 2 --gain gibbs --no-pictures" + quick;
+  const std::string scan = " scan box --views 2 --gain gibbs --no-pictures" + coarse_surface;
   run("--threads 1" + scan, "one");
   run("--threads 2" + scan, "two");
   EXPECT_THAT(surface_names("one"),
@@ -171,7 +172,7 @@ TEST_F(Surfaces, AScanPlannedOnTheGibbsMapShowsThatMapOnAnyNumberOfThreads) {
 
 // The refinement's cloud is that of the scan, which it took again: so is the surface.
 TEST_F(Surfaces, RefiningAScanLeavesThePosteriorsAndTheSameCloud) {
-  run("scan box --views 3 --no-pictures" + quick, "scan");
+  run("scan box --views 3 --no-pictures" + coarse_surface, "scan");
   run("--threads 1 refine --no-pictures " + in("scan").string(), "one");
   run("--threads 2 refine --no-pictures " + in("scan").string(), "two");
   EXPECT_THAT(surface_names("one"),
@@ -199,7 +200,7 @@ TEST_F(Surfaces, ARecordedSceneHasUncertaintyInPlaceOfTruth) {
 }
 
 TEST_F(Surfaces, ACameraThatSeesNothingGivesReasonsAndNoFiles) {
-  const std::string printed = run("scan box --views 1 --no-pictures --sensor.max_range 0.3" + quick, "out");
+  const std::string printed = run("scan box --views 1 --no-pictures --sensor.max_range 0.3" + coarse_surface, "out");
   EXPECT_THAT(surface_names("out"), ElementsAre("surfaces.json"));
   for (const std::string name : {"surface_map", "surface_cloud"}) {
     EXPECT_EQ(surfaces("out")[name].size(), 1u);
@@ -212,7 +213,7 @@ TEST_F(Surfaces, ACameraThatSeesNothingGivesReasonsAndNoFiles) {
 // Nor a list of none of them, which is no list.
 TEST_F(Surfaces, AStoppedScanLeavesNone) {
   const std::string printed = in("printed").string();
-  // Ctrl+C once the first view is taken; views are quick to take, and more of them than there is time for.
+  // Ctrl+C once the first view is taken; views are coarse_surface to take, and more of them than there is time for.
   const Result result = nextview_behind(
       "sh -c 'env --default-signal=INT \"$0\" \"$@\" > \"" + printed +
           "\" & nextview=$!; for i in $(seq 600); do grep -qs start \"" + printed +
@@ -227,9 +228,9 @@ TEST_F(Surfaces, AStoppedScanLeavesNone) {
 
 // What the program lists as written is there.
 TEST_F(Surfaces, TheListOfFilesTellsTheTruth) {
-  EXPECT_THAT(run("scan box --views 2 --no-pictures" + quick, "scan"), Not(HasSubstr(".png")));
+  EXPECT_THAT(run("scan box --views 2 --no-pictures" + coarse_surface, "scan"), Not(HasSubstr(".png")));
   EXPECT_THAT(run("refine " + in("scan").string() + " --no-pictures", "refined"), Not(HasSubstr(".png")));
-  EXPECT_THAT(run("scan box --views 2 --no-pictures --sensor.max_range 0.3" + quick, "blind"),
+  EXPECT_THAT(run("scan box --views 2 --no-pictures --sensor.max_range 0.3" + coarse_surface, "blind"),
               Not(HasSubstr("surface_*.ply")));
 }
 
