@@ -121,9 +121,10 @@ std::string best_after(const std::string& step, const Table& scores) {
 TEST(Scan, EveryGainAndBaselineRuns) {
   // Whether each plans at all shows with few pixels, voxels and samples, too.
   const std::string tiny =
-      "--sensor.width 60 --sensor.height 45 --map.resolution 0.04 --map.region_edge 0.72 --views.count 12 "
-      "--evaluation.surface_samples 200 ";
-  std::map<std::pair<std::string, std::string>, std::vector<double>> gains;  // by name and semantics
+      "--map.resolution 0.04 --map.region_edge 0.72 --views.count 12 --evaluation.surface_samples 200 ";
+  const std::string few_pixels = "--sensor.width 60 --sensor.height 45 ";
+  const std::string pixels_for_edges = "--sensor.width 160 --sensor.height 120 ";  // points that have neighbours
+  std::map<std::pair<std::string, std::string>, std::vector<double>> gains;        // by name and semantics
   std::set<std::vector<double>> published;
   for (const char* gain : {"occlusion-aware", "unobserved-voxel", "rear-side-voxel", "rear-side-entropy",
                            "proximity-count", "area-factor", "average-entropy", "combined", "random", "farthest",
@@ -131,8 +132,10 @@ TEST(Scan, EveryGainAndBaselineRuns) {
     for (const char* semantics : {"published", "reference"}) {
       SCOPED_TRACE(std::string(gain) + ", " + semantics);
       const TemporaryFolder folder;
-      const Result run = nextview("scan " + housing() + tiny + "--no-pictures --no-surfaces --gain " + gain +
-                                  " --views 2 --semantics " + semantics + " --out " + folder.path().string());
+      const Result run = nextview("scan " + housing() + tiny +
+                                  (gain == std::string("surface-edge-density") ? pixels_for_edges : few_pixels) +
+                                  "--no-pictures --no-surfaces --gain " + gain + " --views 2 --semantics " + semantics +
+                                  " --out " + folder.path().string());
       ASSERT_EQ(run.exit_code, 0) << run.err;
       const Table scores = read_table(read_file(folder.path() / "scores.csv"));
       const std::vector<double> values = gains_of(scores);
