@@ -17,6 +17,13 @@ std::string bytes_of(const std::filesystem::path& file) { return read_file(file)
 class WindowFiles : public InTemporaryFolder {
  protected:
   std::string file(const char* name) const { return (folder_ / name).string(); }
+  /// What is asked when a new file, which holds this, is dropped.
+  std::string question_on_dropping(User& user, const char* name, const std::string& text) const {
+    write_file(folder_ / name, text);
+    user.drop(file(name));
+    user.wait_for_news();
+    return user.window().question();
+  }
 };
 
 TEST_F(WindowFiles, APictureIsWithoutWhatIsInFront) {
@@ -102,18 +109,10 @@ TEST_F(WindowFiles, OfSeveralFilesThatAreDroppedItIsSaidWhichIsOpened) {
 TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
   User user(small_scan());
   user.run_quickly("step\nstep\n");
-  write_file(folder_ / "wrong.toml", "[map]\nresolutoin = 0.01\n");
-  user.drop(file("wrong.toml"));
-  user.wait_for_news();
-  EXPECT_EQ(user.window().question(), "") << "it is refused";
-  write_file(folder_ / "gone.toml", "[object]\nfile = \"/no/such/part.stl\"\n");
-  user.drop(file("gone.toml"));
-  user.wait_for_news();
-  EXPECT_EQ(user.window().question(), "") << "what it scans is not there";
-  write_file(folder_ / "mine.toml", "[sensor]\nrange_noise = 0.001\n");
-  user.drop(file("mine.toml"));
-  user.wait_for_news();
-  EXPECT_EQ(user.window().question(),
+  EXPECT_EQ(question_on_dropping(user, "wrong.toml", "[map]\nresolutoin = 0.01\n"), "") << "it is refused";
+  EXPECT_EQ(question_on_dropping(user, "gone.toml", "[object]\nfile = \"/no/such/part.stl\"\n"), "")
+      << "what it scans is not there";
+  EXPECT_EQ(question_on_dropping(user, "mine.toml", "[sensor]\nrange_noise = 0.001\n"),
             "Taking the settings of mine.toml starts the scan over. Its 2 views are set "
             "aside: undo brings them back.");
   EXPECT_EQ(user.session().records.size(), 2u);
@@ -123,10 +122,7 @@ TEST_F(WindowFiles, SettingsThatAreDroppedAskBeforeTheyStartTheScanOver) {
 TEST_F(WindowFiles, AMeshThatIsCutOffAsksNothingAndLosesNothing) {
   User user(small_scan());
   user.run_quickly("step\nrefine 2 8\n");
-  write_file(folder_ / "cut.stl", "solid cut\n");
-  user.drop(file("cut.stl"));
-  user.wait_for_news();
-  EXPECT_EQ(user.window().question(), "");
+  EXPECT_EQ(question_on_dropping(user, "cut.stl", "solid cut\n"), "");
   EXPECT_NE(user.session().message.find("cut.stl: is truncated"), std::string::npos) << user.session().message;
   EXPECT_EQ(user.session().records.size(), 1u);
   EXPECT_EQ(user.session().gibbs_lost, 1u) << "it is still there";
